@@ -6,17 +6,17 @@
 #include <cmath>
 #include <limits>
 
-// Arrays of the standard library, not of Eigen: how Eigen allocates depends on the instruction set that each side of a
-// library's boundary is compiled for.
+// Uses arrays of the standard library, because Eigen's allocation depends on the instruction set of the translation
+// unit.
 namespace mc {
 
 namespace {
 
 struct Eigenvectors {
-  std::vector<double> values, vectors; ///< vectors: one per row
+  std::vector<double> values, vectors; ///< Eigenvectors: one per row.
 };
 
-// Turns axes i and j of the symmetric matrix a, and of v, so that a(i, j) becomes 0.
+// Rotates axes i and j of the symmetric matrix a, and rows i and j of v, so that a(i, j) becomes 0.
 void rotate(std::vector<double>& a, std::vector<double>& v, std::size_t n, std::size_t i, std::size_t j) {
   const double theta = (a[j * n + j] - a[i * n + i]) / (2 * a[i * n + j]);
   const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
@@ -31,7 +31,8 @@ void rotate(std::vector<double>& a, std::vector<double>& v, std::size_t n, std::
   for (std::size_t k = 0; k < n; ++k) turn_pair(v[i * n + k], v[j * n + k]);
 }
 
-// Those of correlations, to an absolute error of some epsilon, by cyclic Jacobi: a handful of sweeps for any size.
+// Eigenvectors of a correlation matrix by cyclic Jacobi, with an absolute error of a few epsilon. A few sweeps suffice
+// for any size.
 Eigenvectors symmetric_eigenvectors(std::vector<double> a, std::size_t n) {
   std::vector<double> v(n * n);
   for (std::size_t i = 0; i < n; ++i) v[i * n + i] = 1;
@@ -50,8 +51,8 @@ Eigenvectors symmetric_eigenvectors(std::vector<double> a, std::size_t n) {
   return {std::move(values), std::move(v)};
 }
 
-// The shortest x of least |a x - b| for a matrix of correlations a; eigenvalues up to `noise` times the largest count
-// as 0.
+// Shortest x with minimal |a x - b| for a correlation matrix a. Treats eigenvalues up to `noise` times the largest as
+// 0.
 std::vector<double> shortest_solution(const std::vector<double>& a, const std::vector<double>& b, double noise) {
   const std::size_t n = b.size();
   const Eigenvectors eigen = symmetric_eigenvectors(a, n);
@@ -116,7 +117,7 @@ void ControlVariates::require_enough() const {
 
 std::vector<double> ControlVariates::coefficients() const {
   require_enough();
-  // In units of the standard deviations, so that the rank does not depend on how the controls are scaled.
+  // Works in units of the standard deviations, so that the rank does not depend on the scale of the controls.
   const std::size_t n = mean_.size(), k = means_.size();
   std::vector<double> units(k), correlations(k * k), with_f(k);
   for (std::size_t i = 0; i < k; ++i) {
@@ -127,7 +128,7 @@ std::vector<double> ControlVariates::coefficients() const {
     with_f[i] = scatter_[i + 1] / units[i];
     for (std::size_t j = 0; j < k; ++j) correlations[i * k + j] = scatter_[(i + 1) * n + j + 1] / units[i] / units[j];
   }
-  // A sum of `count` products is off by about epsilon sqrt(count).
+  // The rounding error of a sum of `count` products is about epsilon sqrt(count).
   const double noise =
       static_cast<double>(k) * std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(count_));
   std::vector<double> beta = shortest_solution(correlations, with_f, noise);
@@ -140,7 +141,7 @@ Estimate ControlVariates::estimate(std::span<const double> beta) const {
   require(
       beta.size() == means_.size() && std::all_of(beta.begin(), beta.end(), [](double b) { return std::isfinite(b); }),
       "ControlVariates: {} coefficients for {} controls; as many finite ones are needed", beta.size(), means_.size());
-  // The combination f - beta . g, in whose coordinates the variance is a quadratic form of the scatter.
+  // The variance of the combination c . (f, g) with c = (1, -beta) is a quadratic form of the scatter.
   const std::size_t size = mean_.size();
   std::vector<double> c(size, 1.0);
   std::transform(beta.begin(), beta.end(), c.begin() + 1, [](double b) { return -b; });

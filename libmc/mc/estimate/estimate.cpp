@@ -11,7 +11,7 @@ double two_sided(double dof, double tail) {
   return dof > 0 ? quantile(complement(boost::math::students_t(dof), tail))
                  : quantile(complement(boost::math::normal(), tail));
 }
-// Student's t at the probability of one sigma.
+// Student's t at the coverage of one sigma.
 double one_sigma(double dof) { return dof > 0 ? two_sided(dof, cdf(complement(boost::math::normal(), 1.0))) : 1.0; }
 } // namespace
 

@@ -12,15 +12,15 @@ namespace mc {
 
 namespace {
 
-// Where the library is made for any machine, its loader chooses among clones of the loops that run over many points: by
-// levels of the instruction set, since the name of a processor would ask for that very one.
+// Builds for any machine contain clones of the loops over many points, among which the loader selects. The clones are
+// named by instruction set level, because a processor name would select only that processor.
 #if defined(MC_ANY_MACHINE) && defined(__x86_64__) && !defined(__clang__)
 #define MC_CLONES [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
 #else
 #define MC_CLONES
 #endif
 
-constexpr std::uint64_t window = 256; // points whose index differs in the low bits only
+constexpr std::uint64_t window = 256; // points with indices that differ only in the low bits
 
 MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
   for (std::size_t i = 0; i < u.size(); i += dim)
@@ -28,10 +28,11 @@ MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t
       u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
 }
 
-// Scrambled coordinates of the points base + skip, ..., base + skip + count - 1, to the same places of x.
+// Writes scrambled coordinates of points base + skip, ..., base + skip + count - 1 to elements skip, ... of x.
 MC_CLONES void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base,
                            std::size_t skip, std::size_t count, std::array<std::uint32_t, window>& x) {
-  // Points base .. base + 2^k - 1 from the first half of them, their bits in reverse order.
+  // Doubles the number of points in each step, with their bits in reverse order: the second half differs from the first
+  // by one column.
   x[0] = reverse_bits(sobol.unscrambled(static_cast<std::uint32_t>(base), dim));
   for (std::uint32_t half = 1; half < skip + count; half *= 2) {
     const std::uint32_t column = reverse_bits(sobol.unscrambled(half, dim));
@@ -41,7 +42,7 @@ MC_CLONES void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t
   for (std::size_t i = skip; i < skip + count; ++i) x[i] = reverse_bits(owen_scramble_reversed(x[i], key));
 }
 
-// The low 26 bits of x at the even places.
+// Spreads the low 26 bits of x to the even bit positions.
 std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 16) & 0x0000ffff0000ffffu;
   x = (x | x << 8) & 0x00ff00ff00ff00ffu;
@@ -50,7 +51,8 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 1) & 0x5555555555555555u;
 }
 
-// Numbers of 52 bits, the middle of their interval: those of x, then hashed ones. To every dim-th place of out.
+// Converts x and hashed lower bits to numbers of 52 bits, at the middle of their interval. Writes them to every dim-th
+// element of out.
 MC_CLONES void extended(const std::uint32_t* x, std::uint64_t key, std::uint64_t index, std::size_t count,
                         std::size_t dim, double* out) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -59,7 +61,7 @@ MC_CLONES void extended(const std::uint32_t* x, std::uint64_t key, std::uint64_t
   }
 }
 
-// The same from the 26 leading bits of x and y in turn, put behind the point of 1.x.
+// Same for the alternating 26 leading bits of x and y. Builds the mantissa of a number in [1, 2) and subtracts 1.
 MC_CLONES void interlaced(const std::uint32_t* x, const std::uint32_t* y, std::size_t count, std::size_t dim,
                           double* out) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -79,7 +81,7 @@ template <class Visit> void windows(std::uint64_t first, std::size_t dim, std::s
   }
 }
 
-// To where a permutation takes them: all walk a step together, then those again that landed beyond its end.
+// Applies a permutation to all positions in steps. Repeats the walk for positions that land beyond its end.
 MC_CLONES void shuffle(const Permutation& permutation, std::span<std::uint32_t> positions) {
   std::array<std::uint32_t, window> x, whose;
   std::copy(positions.begin(), positions.end(), x.begin());
@@ -100,29 +102,31 @@ MC_CLONES void shuffle(const Permutation& permutation, std::span<std::uint32_t> 
   }
 }
 
-// Points on their way down to a box each, axis by axis: how many boxes are left to each, which of them is its own, and
-// its stratum of the axis at hand, `size` boxes from `start`. Whole numbers, as doubles.
+// Points that descend to a box each, axis by axis. For each point: the number of boxes left, the index of its own box,
+// and its stratum on the current axis, as `size` boxes from `start`. All are whole numbers stored as doubles.
 struct Descent {
   std::array<double, window> boxes, box, start, size;
 };
 
-// The strata of the points where the boxes of each are cut along an axis into at most 2^16. Numerators of whole numbers
-// are raised by half: quotients lie further from an integer than they are rounded by, so floors are exact.
+// Computes the strata of the points if the boxes of each point are cut into `strata` <= 2^16 strata along an axis.
+// Numerators are whole numbers plus a half. The quotients are then farther from an integer than their rounding error,
+// so the floors are exact.
 MC_CLONES void cut(Descent& points, double strata, std::size_t count) {
   const double per_stratum = 1 / strata;
   for (std::size_t i = 0; i < count; ++i) {
     const double boxes = points.boxes[i];
     const double stratum = std::floor((points.box[i] * strata + 0.5) / boxes);
-    const double raised = stratum * boxes + (strata - 0.5); // to round up
+    const double raised = stratum * boxes + (strata - 0.5); // rounds up
     points.start[i] = std::floor(raised * per_stratum);
     points.size[i] = std::floor((raised + boxes) * per_stratum) - points.start[i];
   }
 }
 
-// A coordinate of each anywhere in its stratum, to every dim-th place of out; then on to the boxes of the stratum.
+// Writes a uniform coordinate in the stratum of each point to every dim-th element of out. Then reduces the boxes of
+// each point to its stratum.
 MC_CLONES void jitter(Descent& points, std::uint64_t key, std::uint64_t index, std::size_t count, std::size_t dim,
                       double* out) {
-  constexpr double margin = 0x1p-50; // 8 roundings; at most 6 come together
+  constexpr double margin = 0x1p-50; // 8 roundings; at most 6 add up
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t bits = mix64(key + (index + i) * 0x9e3779b97f4a7c15u);
     const double u = std::bit_cast<double>(bits >> 12 | 0x3ff0000000000000u) - 1;
@@ -157,7 +161,7 @@ void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::s
   windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
     const std::uint64_t index = base + skip;
     MC_ASSERT(index + count <= set.count);
-    std::uint32_t left = 0; // boxes of a point, or one more
+    std::uint32_t left = 0; // boxes of a point, possibly rounded down by one
     for (std::size_t d = 0; d < dim; ++d) {
       if (d % group == 0) {
         std::iota(boxes.begin(), boxes.begin() + count, static_cast<std::uint32_t>(index));
@@ -168,7 +172,7 @@ void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::s
       }
       const std::size_t axes = std::min(group - d % group, dim - d);
       if (axes > 1) {
-        // No integer is the power of half an odd number, so rounding its root is safe however it is found.
+        // No integer is a power of half an odd number, so rounding its root is safe for any method.
         const double strata = std::max(std::round(std::pow(left, 1.0 / static_cast<double>(axes))), 1.0);
         cut(points, strata, count);
         left /= static_cast<std::uint32_t>(strata);

@@ -20,12 +20,12 @@ std::uint64_t fnv1a(std::string_view bytes) {
   return h;
 }
 
-// The lines of a text, each a keyword with numbers behind it.
+// The lines of a text; each is a keyword followed by numbers.
 class Lines {
  public:
   explicit Lines(std::string_view text) : rest_(text) {}
 
-  // The next line: its numbers, where it starts with the keyword.
+  // Numbers of the next line, which must start with the keyword.
   std::string_view after(std::string_view keyword) {
     const std::string_view line = next();
     require(is(line, keyword), "density: line {} must start with '{}'", number_, keyword);
@@ -42,7 +42,7 @@ class Lines {
   static bool is(std::string_view line, std::string_view keyword) {
     return line.starts_with(keyword) && (line.size() == keyword.size() || line[keyword.size()] == ' ');
   }
-  // Takes a number from the front of a line's numbers.
+  // Removes and returns the first of the numbers left in a line.
   template <class T> T number(std::string_view& line) const {
     T value{};
     line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
@@ -61,7 +61,7 @@ class Lines {
   int number_ = 0;
 };
 
-// The text without its last line, which is the checksum of the rest.
+// The text without its last line, which must be the checksum of the rest.
 std::string_view checked(std::string_view text) {
   const std::size_t at = text.rfind("\nchecksum ");
   require(at != text.npos, "density: the checksum at the end is missing; the text was cut short");

@@ -11,17 +11,17 @@ namespace mc {
 
 namespace {
 constexpr double uniform_share = 0.1; // of the probability, in each dimension
-constexpr double jump_share = 0.5;    // of a jump's height that counts as mass
-constexpr double enough = 64;         // points behind what is taken for the power of a bin
+constexpr double jump_share = 0.5;    // share of the height of a jump that counts as mass
+constexpr double enough = 64;         // points behind each estimate of the power of a bin
 
-// The place of entry j in a row of n that is mirrored at its ends.
+// Index of entry j in a row of n entries that is mirrored at its ends.
 std::size_t mirrored(std::ptrdiff_t j, std::ptrdiff_t n) {
   if (j < 0) j = -1 - j;
   if (j >= n) j = 2 * n - 1 - j;
   return static_cast<std::size_t>(j);
 }
 
-// The mean over the neighbours within `reach`, with weights that fall linearly.
+// Weighted mean over neighbours up to distance `reach`, with linearly decreasing weights.
 std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std::ptrdiff_t reach) {
   std::array<double, ImportanceGrid::bins> out;
   const auto n = static_cast<std::ptrdiff_t>(row.size());
@@ -34,8 +34,8 @@ std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std
   return out;
 }
 
-// With what is more than `ratio` times as wide as its neighbour, below it or above it, cut to at most half of that,
-// from there on.
+// Limits the growth of bin widths in one direction. A bin more than `ratio` times wider than its predecessor is cut, so
+// that each new bin is at most ratio / 2 times wider than the bin before it.
 std::vector<double> widened(std::vector<double> edges, double ratio, bool upwards) {
   constexpr double least = 0x1p-50;
   if (!upwards) std::reverse(edges.begin(), edges.end());
@@ -52,9 +52,9 @@ std::vector<double> widened(std::vector<double> edges, double ratio, bool upward
   return cut;
 }
 
-// Bins that widen step by step away from narrow ones: the flanks of a peak lie in the bins beside it, which the points
-// of a round may not have met, and where one is hundreds of times as wide hardly any point ever does. At most a quarter
-// more bins are made for it, and their edges shared among as many as there were.
+// Makes bin widths grow gradually away from narrow bins. The flanks of a peak lie in the neighbouring bins. If these
+// are hundreds of times wider, hardly any point hits the flanks. Creates at most a quarter more bins, then
+// redistributes the edges over the original number of bins.
 void grade(std::array<double, ImportanceGrid::bins + 1>& edges) {
   constexpr std::size_t bins = ImportanceGrid::bins;
   const std::vector<double> plain(edges.begin(), edges.end());
@@ -138,9 +138,9 @@ void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points)
   MC_ASSERT(power.size() == static_cast<std::size_t>(dim_) * bins);
   std::array<double, bins> mass;
   std::array<double, bins + 1> edges;
-  // What the few points of a short round say of a bin is noise, and a density that follows it puts rare, huge weights
-  // where it fell too low: the next sums would be off by more than their error tells. So bins pool with their
-  // neighbours for enough points.
+  // Few points give a noisy estimate for each bin. A density that follows the noise has huge weights where it is too
+  // low, and the next sums would err by more than their error bar. Bins are therefore pooled with neighbours until they
+  // have enough points.
   const auto reach = static_cast<std::ptrdiff_t>(
       std::clamp(std::ceil(enough * bins / static_cast<double>(points)) - 1, 0.0, bins / 2.0));
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) {
@@ -149,14 +149,14 @@ void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points)
     double total = 0;
     for (std::size_t i = 0; i < bins; ++i) {
       const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, bins - 1);
-      // Neighbours damp the noise of a round. Where the integrand jumps between them, edges are drawn to the jump:
-      // within the bin that holds it the density cannot follow.
+      // Neighbours damp the noise of a round. A density cannot follow a jump of the integrand inside a bin, so
+      // additional edges move to the jump.
       const auto size = [&](std::size_t j) { return std::sqrt(p[j]) / std::max(e[j + 1] - e[j], 1e-300); };
       const double jump =
           std::max(std::abs(size(i) - size(before)), std::abs(size(after) - size(i))) * (e[i + 1] - e[i]);
       total += mass[i] = std::sqrt((p[before] + 2 * p[i] + p[after]) / 4) + jump_share * jump;
     }
-    if (!(total > 0) || !std::isfinite(total)) continue; // nothing seen: nothing learned
+    if (!(total > 0) || !std::isfinite(total)) continue; // no nonzero values: keep the edges
     for (std::size_t i = 0; i < bins; ++i)
       mass[i] = (1 - uniform_share) * mass[i] / total + uniform_share * (e[i + 1] - e[i]);
     edges[0] = 0;

@@ -12,12 +12,12 @@ namespace mc {
 
 namespace {
 
-constexpr double uniform_share = 0.1; // of the probability, over the cube
-constexpr double even_share = 0.02;   // of that of a box that is cut, over the box
-constexpr double mean_share = 0.25;   // of the squared mean, beside the variance
-constexpr double fewest = 16;         // points of either half in a box
-constexpr double worthwhile = 0.02;   // a cut saves at least this share of what its box costs
-constexpr std::size_t parts = 8;      // of a box, between which it may be cut
+constexpr double uniform_share = 0.1; // of the probability, uniform over the cube
+constexpr double even_share = 0.02;   // of the probability of a box that is cut, uniform over the box
+constexpr double mean_share = 0.25;   // weight of the squared mean relative to the variance
+constexpr double fewest = 16;         // minimum number of points of either half in a box
+constexpr double worthwhile = 0.02;   // minimum share of the cost of a box that a cut must save
+constexpr std::size_t parts = 8;      // equal parts of a side; cuts lie between them
 
 struct Sums {
   double n = 0, weight = 0, value = 0, square = 0;
@@ -30,7 +30,7 @@ struct Sums {
   }
   Sums operator+(const Sums& b) const { return {n + b.n, weight + b.weight, value + b.value, square + b.square}; }
   Sums operator-(const Sums& b) const { return {n - b.n, weight - b.weight, value - b.value, square - b.square}; }
-  // The root of what a point in the box costs.
+  // Root of the cost per point in the box.
   double spread() const {
     if (!(weight > 0)) return 0;
     const double mean = value / weight,
@@ -41,7 +41,7 @@ struct Sums {
 using Halves = std::array<Sums, 2>;
 
 struct Open {
-  std::size_t first, last; // of the order
+  std::size_t first, last; // range in Learner::order
   std::vector<double> lo, hi;
   double volume;
 };
@@ -51,8 +51,8 @@ struct Cut {
   double at = 0;
 };
 
-// What a subtree costs: what the first half of the points shows of the leaves says how points are shared among them,
-// and what the second half shows says what that costs.
+// Cost of a subtree. The first half of the points determines the shares of the leaves (`asked`), the second half the
+// resulting cost (`paid`).
 struct Cost {
   double asked = 0, paid = 0;
   double total() const { return asked * paid; }
@@ -64,7 +64,7 @@ struct Learner {
   std::vector<BoxTreeNode> nodes = {};
   std::vector<double> volumes = {}; // of the leaves
 
-  // Which half a point is in: hashed, since even points of a sequence lie on one side.
+  // Half that contains point k. Uses a hash, because points with even index of a sequence lie on one side.
   static std::size_t half(std::size_t k) { return mix64(k) & 1; }
 
   Halves sums(const Open& box) const {
@@ -74,8 +74,8 @@ struct Learner {
     return all;
   }
 
-  // Where the first half of the points gains most; where it gains nothing, through the middle of the longest side: what
-  // is symmetric shows only in the parts of the parts.
+  // Cut with the largest gain for the first half of the points. If there is no gain, cuts the longest side in the
+  // middle, because symmetric structure shows only in smaller boxes.
   Cut best(const Open& box, const Halves& all) const {
     Cut cut, middle;
     double largest = worthwhile, longest = 0;
@@ -109,8 +109,8 @@ struct Learner {
     return cut.axis == BoxTreeNode::leaf ? middle : cut;
   }
 
-  // What lies beside a peak may belong to it, although no point has met it: a share of what the leaves of a box weigh
-  // is spread evenly over the box. They are the last ones, from this node and this leaf on.
+  // Spreads a share of the weight of the leaves evenly over the box, because points may have missed the neighbourhood
+  // of a peak. The leaves of the box are the last ones, from `node` and `leaf` on.
   void even_out(std::size_t node, std::size_t leaf, double volume) {
     double weight = 0;
     for (std::size_t i = node; i < nodes.size(); ++i) weight += nodes[i].axis == BoxTreeNode::leaf ? nodes[i].value : 0;
@@ -119,7 +119,7 @@ struct Learner {
         nodes[i].value = (1 - even_share) * nodes[i].value + even_share * weight * volumes[leaf++] / volume;
   }
 
-  // Adds the nodes of a box; leaves weigh what they cost. A subtree that does not pay becomes a leaf again.
+  // Adds the nodes of a box; the weight of a leaf is its cost. Replaces a subtree that does not pay off by a leaf.
   Cost grow(const Open& box, double parent) {
     const Halves all = sums(box);
     const double first = std::hypot(all[0].spread() * std::sqrt(0.9), parent * std::sqrt(0.1)),

@@ -8,7 +8,7 @@
 namespace mc::detail {
 
 namespace {
-constexpr std::size_t finest = 64, coarsest = 8, least = 24; // bins, points in one
+constexpr std::size_t finest = 64, coarsest = 8, least = 24; // numbers of bins, and minimum number of points per bin
 
 struct Bin {
   double count = 0, sum = 0;
@@ -17,8 +17,8 @@ struct Bin {
 };
 using Bins = std::array<Bin, finest>;
 
-// Points of one replicate depend on each other, as those of a net do in their other coordinates: what its points in a
-// bin are off by together is the spread that counts.
+// Adds the variance of each bin mean. Points of one replicate are dependent, like points of a net in other coordinates.
+// The variance therefore comes from the total deviation of each replicate in a bin.
 void add_variances(Bins& bins, std::span<const std::size_t> bin_of, std::span<const double> values,
                    std::size_t replicates) {
   const std::size_t points = values.size() / replicates;
@@ -31,8 +31,8 @@ void add_variances(Bins& bins, std::span<const std::size_t> bin_of, std::span<co
   for (Bin& b : bins) b.variance *= b.count > 0 ? r / ((r - 1) * sqr(b.count)) : 0;
 }
 
-// Of what stands out from both sides by two standard errors of that difference. At two lengths in a row that is 0 in
-// all but 3 of 1000 runs of smooth integrands.
+// Largest step that exceeds the steps on both sides by two standard errors. False alarms at two consecutive lengths are
+// rare for smooth integrands.
 double largest_jump(std::span<const Bin> bins) {
   double largest = 0;
   const auto step = [&](std::size_t i) { return std::abs(bins[i + 1].mean() - bins[i].mean()); };
@@ -66,7 +66,7 @@ double AxisProfile::jump(std::size_t output, std::size_t dim, std::size_t replic
   double largest = 0;
   for (const double x : values_[output]) largest = std::max(largest, std::abs(x));
   if (!(largest > 0 && std::isfinite(largest))) return 0;
-  const int exponent = std::ilogb(largest); // so that no square overflows or vanishes
+  const int exponent = std::ilogb(largest); // scales so that no square overflows or underflows
   std::vector<double> values;
   for (const double x : values_[output]) values.push_back(std::ldexp(x, -exponent));
   std::size_t count = finest;

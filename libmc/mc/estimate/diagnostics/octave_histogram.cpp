@@ -49,12 +49,12 @@ double OctaveHistogram::mean_magnitude() const {
 }
 
 double OctaveHistogram::Largest::index() const {
-  const std::uint64_t steps = (octaves - 1) * count - octave_sum; // above the threshold, summed
+  const std::uint64_t steps = (octaves - 1) * count - octave_sum; // sum of the steps above the threshold
   if (count == 0 || steps == 0) return std::numeric_limits<double>::infinity();
   return std::log2(1 + static_cast<double>(count) / static_cast<double>(steps));
 }
 
-// The last octave also holds zeros.
+// Omits the last octave, which also contains zeros.
 OctaveHistogram::Largest OctaveHistogram::largest(std::uint64_t least) const {
   Largest found;
   while (found.count < least && found.octaves + 1 < octaves) found.add(below_[found.octaves]);
@@ -74,7 +74,7 @@ OctaveHistogram::Largest OctaveHistogram::sixteen_largest() const {
 }
 
 bool OctaveHistogram::undersampled() const {
-  const bool single = zeros_ >= 100 && count_ - zeros_ == 1; // others may be of any size
+  const bool single = zeros_ >= 100 && count_ - zeros_ == 1; // further values may have any size
   return single || sixteen_largest().index() < 0.5;
 }
 

@@ -10,29 +10,29 @@ namespace mc {
 
 namespace {
 constexpr double borderline = 2; // the variance is finite for an index above this
-constexpr double few = 0.25;     // standard error of an index of 2, as the largest values show it
-constexpr double many = 0.06;    // as many values show it, if they are at most 10'000; less if they are more
-constexpr double enough = 12;    // points of an octave that tell how many points stand for a volume
-constexpr double most = 0.6;     // of the volume, that a tail may fill
-// The index of the largest values may exceed that of many by the ratio of their volumes to this power: that of
-// x^-p y^-p grows with a logarithm. Uniform points meet few large values, whose index is known badly.
+constexpr double few = 0.25;     // standard error of an index of 2 from the largest values
+constexpr double many = 0.06;    // same from many values, for at most 10'000 of them; less for more
+constexpr double enough = 12;    // points in an octave that determine the rate of points per volume
+constexpr double most = 0.6;     // largest share of the volume that a tail may fill
+// The index of the largest values may exceed the index of many values by the ratio of their volumes to this power. The
+// index of x^-p y^-p grows logarithmically. Uniform points reach few large values, and the index of these is
+// inaccurate.
 constexpr double growth = 0.06, growth_of_uniform = 0.14;
 } // namespace
 
-// A power law fitted to the values from a lowest octave up. Octaves are numbered from that one, 0, 1, ... If the law
-// has the index a, the volume of an octave is 2^-a times that of the octave below it, without end. How many points
-// stand for a volume is known from the points that were seen in each octave; above the highest of these, it is taken
-// from that one. The index is right where the mean number of a point's octave is what the law makes it: the maximum of
-// the likelihood.
+// Power law fitted to the values from a lowest octave up. Octaves are numbered 0, 1, ... from that one. For index a,
+// the volume of each octave is 2^-a times the volume of the octave below it, without end. The number of points per
+// volume comes from the points in each octave. Above the highest octave with points, the rate of that octave applies.
+// The maximum likelihood index gives the observed mean octave number of the points.
 class TailIndexEstimator::Fit {
  public:
-  bool known = false; // enough values were met to say what the index is
+  bool known = false; // whether there are enough values to determine the index
   double points = 0;
 
   double volume() const { return all_.volume; }
   void add(const Octave& next) {
-    const bool together = points < enough; // so few tell a rate only all together
-    sum_ += points;                        // each is one octave farther up
+    const bool together = points < enough; // few points determine a rate only together
+    sum_ += points;                        // each point moves one octave up
     points += next.points();
     all_ += next;
     if (together) {
@@ -43,9 +43,9 @@ class TailIndexEstimator::Fit {
     last_ = next;
     ++size_;
   }
-  // Standard error of the index, if it is 2.
+  // Standard error of the index if the index is 2.
   double error() const { return 1 / (std::log(2.0) * std::sqrt(points * moments(borderline).variance)); }
-  // How much farther out the points lie than for an index of 2, in standard deviations.
+  // Excess of the mean octave number over its expectation for an index of 2, in standard deviations.
   double excess_z_score() const {
     const Moments m = moments(borderline);
     return (sum_ / points - m.mean) / std::sqrt(m.variance / points);
@@ -63,8 +63,8 @@ class TailIndexEstimator::Fit {
   struct Moments {
     double mean, variance;
   };
-  // Points for a volume. Few points do not tell it: those of the octave above count, too, and where there are none at
-  // all, its rate.
+  // Points per volume of an octave. With few points, pools them with the octave above. Without any, uses the rate of
+  // the octave above.
   double rate_of(const Octave& next) const {
     if (next.points() >= enough) return next.rate();
     if (!(next.volume > 0)) return rates_[size_ - 1];
@@ -72,7 +72,7 @@ class TailIndexEstimator::Fit {
     both += next;
     return both.rate();
   }
-  // Of the number of a point's octave, for an index a.
+  // Moments of the octave number of a point, for an index a.
   Moments moments(double a) const {
     const double q = std::exp2(-a);
     double power = 1, s0 = 0, s1 = 0, s2 = 0;
@@ -83,7 +83,7 @@ class TailIndexEstimator::Fit {
       s2 += sqr(number) * expected;
       power *= q;
     }
-    // All octaves above: geometric series.
+    // All octaves above, by geometric series.
     const double k = static_cast<double>(size_), r = 1 / (1 - q), first = rates_[0] * power * r;
     s0 += first;
     s1 += first * (k + q * r);
@@ -91,9 +91,9 @@ class TailIndexEstimator::Fit {
     return {s1 / s0, s2 / s0 - sqr(s1 / s0)};
   }
 
-  std::array<double, octaves> rates_{}; // points per volume, downward
+  std::array<double, octaves> rates_{}; // points per volume, from the top octave down
   std::size_t size_ = 0;
-  double sum_ = 0; // of the points' numbers
+  double sum_ = 0; // sum of the octave numbers of all points
   Octave all_, last_;
 };
 
@@ -139,7 +139,8 @@ void TailIndexEstimator::merge(const TailIndexEstimator& other) {
   }
 }
 
-// To so many of the largest values that an index of 2 has this standard error, or to all that are still a tail.
+// Fits to the largest values, enough for this standard error of an index of 2, or to all values that belong to the
+// tail.
 TailIndexEstimator::Fit TailIndexEstimator::fit(double error) const {
   double all = 0;
   for (const Octave& o : octave_volumes_) all += o.volume;
@@ -153,7 +154,7 @@ TailIndexEstimator::Fit TailIndexEstimator::fit(double error) const {
   return fit;
 }
 
-// The more values there are, the more of them: over a wider range it shows whether the index grows.
+// Uses more values if there are more, because a wider range shows whether the index grows.
 TailIndexEstimator::Fit TailIndexEstimator::fit_to_many() const {
   double points = 0;
   for (const Octave& o : octave_volumes_) points += o.points();
@@ -173,7 +174,7 @@ double TailIndexEstimator::index() const {
 bool TailIndexEstimator::infinite_variance() const {
   const Fit largest = fit(few);
   if (!largest.known || largest.excess_z_score() < -1.5 || fit_to_many().excess_z_score() < -1)
-    return false; // in deviations
+    return false; // in standard deviations
   return std::isfinite(index());
 }
 

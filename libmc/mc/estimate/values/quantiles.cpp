@@ -11,18 +11,18 @@ namespace mc {
 
 namespace {
 
-// The values of all replicates, each sorted, and all together.
+// Sorted values of each replicate and of all replicates together.
 struct ReplicateValues {
   std::vector<std::vector<double>> replicates;
   std::vector<double> all;
 
-  // The interval of the share of values at or below t.
+  // Confidence interval of the share of values at or below t.
   Estimate::Interval share(double t, double confidence) const {
     std::vector<double> shares;
     for (const std::vector<double>& r : replicates)
       shares.push_back(static_cast<double>(std::upper_bound(r.begin(), r.end(), t) - r.begin()) /
                        static_cast<double>(r.size()));
-    const double inside[] = {0, 1}; // of the values whose mean a share is
+    const double inside[] = {0, 1}; // the values whose mean is a share
     detail::IntegrandDiagnostics sizes;
     sizes.values.add(inside);
     detail::ReplicateHistory history;
@@ -31,19 +31,20 @@ struct ReplicateValues {
   }
 };
 
-// The first value at which one end of the interval of the share is p or more. Both ends grow with t but for chance.
+// First value at which one end of the interval of the share is at least p. Both ends increase with t, up to random
+// fluctuations.
 std::vector<double>::const_iterator first_value(const ReplicateValues& sampled, double p, double confidence,
                                                 double Estimate::Interval::*end) {
   return std::partition_point(sampled.all.begin(), sampled.all.end(),
                               [&](double t) { return sampled.share(t, confidence).*end < p; });
 }
 
-// Between the first value whose share may be p, and the first whose share is at least that.
+// The interval reaches from the first value whose share may be p to the first value whose share is at least p.
 Quantile quantile(const ReplicateValues& sampled, double p, double confidence) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto lo = first_value(sampled, p, confidence, &Estimate::Interval::hi);
   const auto hi = first_value(sampled, p, confidence, &Estimate::Interval::lo);
-  const bool may_be_below = sampled.share(-infinity, confidence).hi >= p; // of all that was seen
+  const bool may_be_below = sampled.share(-infinity, confidence).hi >= p; // below all sampled values
   const auto rank = static_cast<std::size_t>(std::ceil(p * static_cast<double>(sampled.all.size())));
   const double value = sampled.all[std::clamp<std::size_t>(rank, 1, sampled.all.size()) - 1];
   return {p,
