@@ -11,15 +11,15 @@ namespace render {
 
 namespace {
 
-// Deviations of equal samples, in parts of their squares.
+// Squared deviations below this share of the squares count as rounding errors of equal samples.
 constexpr double rounding = 1e-12;
 
-/// Of the samples in all sets, see Film::estimate.
+/// Mean and variance over all sets; see Film::estimate.
 struct MeanOfSets {
   Eigen::Array3d mean = Eigen::Array3d::Zero(), variance = Eigen::Array3d::Zero();
 };
 
-// sum(i) : of the samples of set i;  count(i) : how many they are
+// sum(i): sum of the samples of set i. count(i): number of its samples.
 template <class Sum, class Count>
 MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const Eigen::Array3d& squared_jump) {
   MeanOfSets all;
@@ -40,15 +40,15 @@ MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const E
   return all;
 }
 
-// What the sum of variances is below, with a confidence of 95 %.
+// Upper bound of the sum of variances with 95 % confidence.
 double bound_of(const mc::VarianceSum& sum) {
   const double dof = sum.dof();
   return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(0.95, dof) : sum.value;
 }
 
-/// Of the pixels of a part of a picture, over their squared radiance.
+/// Sum over the pixels of a part of an image of the variance relative to squared radiance.
 struct PartVariance {
-  mc::VarianceSum all, independent; ///< were the samples so
+  mc::VarianceSum all, independent; ///< From the point sets, and from samples taken as independent.
   int pixels = 0;
 
   RelativeError error(double noise_area) const {
@@ -59,7 +59,7 @@ struct PartVariance {
   }
 };
 
-// The mean of the pixel and its neighbours.
+// Mean of the 3x3 neighbourhood.
 Eigen::Array3d around(const Image& image, int x, int y) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   int n = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where samples become an image with an error bar.
+/// Accumulation of samples into an image with error bars.
 
 #include <render/film/filter.h>
 #include <render/film/image.h>
@@ -11,36 +11,38 @@
 
 namespace render {
 
-/// The first sample that was not finite: enough to trace it again.
+/// Location of a sample that was not finite: enough to trace it again.
 struct InvalidSample {
-  int x = 0, y = 0;
-  std::uint32_t pass = 0, index = 0;
+  int x = 0, y = 0;                  ///< Pixel of the full image.
+  std::uint32_t pass = 0, index = 0; ///< Pass of the pixel's points, and index of the point in the pass.
 };
 
-/// What paths from the lights gave to a pixel, see Film::add_light.
+/// Statistics of the light path contributions of a pixel; see Film::add_light_splat.
 struct LightSums {
-  double squares = 0, largest = 0; ///< luminances
-  Eigen::Array3d channel_largest = Eigen::Array3d::Zero();
+  double squares = 0, largest = 0;                         ///< Sum of squared luminances, and largest luminance.
+  Eigen::Array3d channel_largest = Eigen::Array3d::Zero(); ///< Largest value per channel.
 
+  /// Adds one contribution.
   void add(const Eigen::Array3d& value) {
     const double y = luminance(value);
     squares += y * y;
     largest = std::max(largest, y);
     channel_largest = channel_largest.max(value);
   }
-  void merge(const LightSums& other);
+  void merge(const LightSums& other); ///< Adds the statistics of other contributions.
 };
 
-/// What a pixel's samples are like: how far they spread, and whether one of them decides. mc::Moments of luminance and
-/// channels with their range beside them would take 216 bytes a pixel for these 128, and divisions at every sample.
+/// Statistics of a pixel's samples: spread, extremes and jumps. Plain sums need less memory than mc::Moments of
+/// luminance and channels, and no division for each sample.
 struct SampleSums {
-  std::uint64_t count = 0;
-  double sum = 0, squares = 0, largest = 0; ///< luminances
-  Eigen::Array3d channel_sums = Eigen::Array3d::Zero();
-  Eigen::Array3d channel_squares = Eigen::Array3d::Zero();
-  Eigen::Array3d channel_largest = Eigen::Array3d::Zero();
-  Eigen::Array3d channel_smallest = Eigen::Array3d::Constant(mc::infinity<double>);
+  std::uint64_t count = 0;                                 ///< Number of samples.
+  double sum = 0, squares = 0, largest = 0;                ///< Sum, sum of squares and maximum of luminances.
+  Eigen::Array3d channel_sums = Eigen::Array3d::Zero();    ///< Sums per channel.
+  Eigen::Array3d channel_squares = Eigen::Array3d::Zero(); ///< Sums of squares per channel.
+  Eigen::Array3d channel_largest = Eigen::Array3d::Zero(); ///< Maxima per channel.
+  Eigen::Array3d channel_smallest = Eigen::Array3d::Constant(mc::infinity<double>); ///< Minima per channel.
 
+  /// Adds one sample.
   void add(const Eigen::Array3d& sample) {
     const double y = luminance(sample);
     ++count;
@@ -52,121 +54,136 @@ struct SampleSums {
     channel_largest = channel_largest.max(sample);
     channel_smallest = channel_smallest.min(sample);
   }
-  void merge(const SampleSums& other);
+  void merge(const SampleSums& other); ///< Adds the statistics of other samples.
 
-  /// Of the mean, were the samples independent.
+  /// Variance of the mean of independent samples, per channel; infinite for fewer than 2 samples.
   Eigen::Array3d variance_of_mean() const;
 
-  /// How many samples like the one that lies farthest off, were it the brightest, make up the squared deviations of
-  /// luminance from the mean; infinite where all are equal. Below 2 the pixel is undecided: there were too few samples
-  /// of what makes it bright, and its error bar is not known yet.
-  ///   light  : what paths from the lights gave, of which each counts `weight` times as much as a sample
+  /// Effective sample count: squared deviations of luminance from the mean, over the square of the brightest sample's
+  /// deviation. Infinite if all samples are equal. Below 2 one sample dominates the pixel: it has too few samples of
+  /// the paths that make it bright, and its error bar is unreliable.
+  ///   light  : light path contributions to the pixel.
+  ///   weight : factor of a light path contribution relative to a sample.
   double effective_sample_count(const LightSums& light = {}, double weight = 0) const;
 
-  /// How far samples jump: the largest less the smallest, R, where there are but two values, as at an edge; where these
-  /// are spread evenly, as on a slope, 0. In between R sqrt(3 b / 2 - 1 / 2), where b is the square deviation over what
-  /// two such values of the same mean have [BhatiaDavis00]; R where a sample is rare, beyond three deviations.
+  /// Jump J of the samples per channel: large for two distinct values, as at an edge; 0 for an even spread, as on a
+  /// slope. J = R sqrt(3 b / 2 - 1 / 2), clamped to [0, R]. R is the range of the samples. b is their variance over the
+  /// variance of two values at the ends of the range with the same mean [BhatiaDavis00]. J = R if the farthest sample
+  /// is rare: beyond three standard deviations from the mean.
   Eigen::Array3d jump() const;
 };
 
-/// What a pixel is, as far as its samples tell.
+/// Estimate of a pixel from its samples.
 struct PixelEstimate {
-  Eigen::Array3d mean = Eigen::Array3d::Zero();
-  Eigen::Array3d variance = Eigen::Array3d::Zero();       ///< of the mean; see Film::estimate
-  Eigen::Array3d light_variance = Eigen::Array3d::Zero(); ///< of that what is due to paths from the lights
-  std::uint64_t samples = 0;
-  int sets = 0; ///< that have samples; fewer than two: the variance is not known
+  Eigen::Array3d mean = Eigen::Array3d::Zero();           ///< Mean per channel.
+  Eigen::Array3d variance = Eigen::Array3d::Zero();       ///< Variance of the mean; see Film::estimate.
+  Eigen::Array3d light_variance = Eigen::Array3d::Zero(); ///< Part of `variance` due to light paths.
+  std::uint64_t samples = 0;                              ///< Number of samples.
+  int sets = 0; ///< Number of point sets with samples; below 2 the variance is unknown.
 };
 
-/// A mean relative standard error, and what it is below with a confidence of 95 %: few pixels may have most of the
-/// noise, and each knows its variance from two sets only. But that of independent samples, of which each pixel has
-/// many, bounds it, too; those count that decide, see SampleSums::deciding.
+/// Mean relative standard error of pixels, with an upper bound of 95 % confidence. The estimate itself is uncertain: a
+/// few pixels may contribute most of the noise, and each estimates its variance from two point sets. A second bound
+/// uses the samples as if independent, with SampleSums::effective_sample_count as degrees of freedom. If the noise area
+/// is 1, the smaller bound counts.
 struct RelativeError {
+  /// The estimate, and the bound of 95 % confidence.
   double value = mc::infinity<double>, bound = mc::infinity<double>;
 };
 
-/// Over what the errors of pixels are averaged.
+/// Pixels over which errors are averaged.
 enum class ErrorScope {
-  image,      ///< all pixels
-  worst_block ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
+  image,      ///< All pixels.
+  worst_block ///< The 16x16 block with the largest error; blocks at the right and lower edges may be smaller.
 };
+/// Errors of a film in both scopes.
 struct RelativeErrors {
-  RelativeError image, worst_block;
+  RelativeError image, worst_block; ///< Over all pixels, and in the worst block.
 
+  /// The error of a scope.
   const RelativeError& of(ErrorScope which) const { return which == ErrorScope::image ? image : worst_block; }
 };
 
-/// What the samples of a film are.
+/// Properties of a film's samples.
 struct FilmOptions {
-  std::optional<SplatFilter> splat = {}; ///< where samples count for several pixels, as they come by `splat`
-  bool has_light_paths = false;          ///< paths from the lights give something, too: 136 bytes more a pixel
-  double noise_area = 1;                 ///< see Image, of samples that share paths; with splats theirs
-  bool independent_samples = false;      ///< the samples of a pixel are
+  std::optional<SplatFilter> splat = {}; ///< Filter of splatting; none: each sample counts for one pixel.
+  bool has_light_paths = false;          ///< Whether light paths contribute; they need further sums for each pixel.
+  /// Noise area of samples that share paths (see Image); with splats, their noise area replaces it.
+  double noise_area = 1;
+  bool independent_samples = false; ///< Whether the samples of a pixel are independent.
 };
 
-/// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
-/// its samples, and how its sets differ tells how far it may be off. Two sets take 56 bytes a pixel, of 192 in all;
-/// mc::Moments of each set and channel would take 240.
+/// Sums of samples for each pixel and each independent point set. The mean of the samples is the pixel's value, and the
+/// differences between the point sets give its variance. Plain sums need less memory than mc::Moments of each set.
 class Film {
  public:
-  /// throws : Error for a non-positive size or number of sets
+  /// An empty film.
+  ///   throws : Error unless width, height and the number of sets are positive.
   Film(int width, int height, int sets, FilmOptions options = {});
 
+  /// Width [pixels].
   int width() const { return width_; }
+  /// Height [pixels].
   int height() const { return height_; }
+  /// Number of point sets of each pixel.
   int sets() const { return sets_; }
+  /// Whether the film contains the pixel (x, y).
   bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
 
-  /// Adds the sum of `count` samples of one of the pixel's point sets. Pixels may be written by different threads; one
-  /// pixel by one at a time.
+  /// Adds the sum of `count` samples to a point set of a pixel. Different threads may write different pixels, but one
+  /// pixel at a time is written by one thread only.
   void add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count);
 
-  /// Adds what samples, of this pixel or another, give to one of its point sets: the sums of their weighted radiance
-  /// and of their weights, which are 1 for every sample of the pixel on average.
+  /// Adds splats to a point set of a pixel, from samples of this pixel or another. `sum` contains the sums of weighted
+  /// radiance and of weights. The weights average 1 over the samples of the pixel.
   void add_splat(int x, int y, int set, const Eigen::Array4d& sum);
 
-  /// Adds what a path from the lights gives to one of a pixel's point sets. It belongs to no sample of the pixel: the
-  /// set's mean of it is over what count_light says.
+  /// Adds a light path contribution to a point set of a pixel. Its mean is over the count of add_light_path_count(),
+  /// not over the samples of the pixel.
   void add_light_splat(int x, int y, int set, const Eigen::Array3d& value);
-  /// Tells that a set has got the light of as many paths as `samples` samples of every pixel have.
+  /// Adds light paths to the count of a point set. The unit is `samples` samples of every pixel, at the light path
+  /// rate.
   void add_light_path_count(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
-  /// Tells of the rays of paths from the lights.
+  /// Adds to the number of rays of light paths.
   void add_light_rays(std::uint64_t rays) { light_rays_ += rays; }
 
-  /// Adds the samples of a film of the same kind.
+  /// Adds the samples of another film with the same size, sets and options.
   void merge(const Film& other);
 
-  /// Tells of the samples of a pixel, and of the rays that they took. Splats come from pixels beside the film, too.
+  /// Adds the statistics of a pixel's samples and the number of rays that they took. With splats the pixel may lie
+  /// within the filter's reach outside the film.
   void record_samples(int x, int y, const SampleSums& samples, std::uint64_t rays);
 
-  /// The mean of the pixel's samples. Sets count by their number of samples: with set means m_s of n_s samples, n in
-  /// all, the variance of the mean m is sum_s n_s (m_s - m)^2 / ((sets - 1) n).
-  ///   The weights of splats vary about 1, and with them what is the same everywhere. So that a sample of a constant
-  /// has no noise, n_s m_s is the set's sum less c (w_s - n_s), where w_s is the sum of its weights and c the
-  /// weighted mean of the other sets: c does not depend on w_s, and nothing is biased.
-  ///   Sets may agree by chance where samples do not, as at an edge, of which each of k sets counts a whole number: one
-  /// more or less moves a set's sum by the jump J of the samples. So the variance is at least k f (1 - f) J^2 / n^2,
-  /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
-  /// (k + 1) / ((k + 2) (k + 3)) on average.
-  /// Splats bring J^2 from the pixels about, times the squares of their weights.
-  ///   Independent samples tell what sets do, and are more: the variance is by theirs, but for splats.
-  ///   Light of paths from the lights adds its own mean and the variance of that, found in the same way.
+  /// Estimates a pixel.
+  ///   mean     : m, the mean of all n samples.
+  ///   variance : sum_s n_s (m_s - m)^2 / ((k - 1) n) over the k point sets, with n_s samples of mean m_s.
+  /// At least k f J^2 / n^2 with f = (k + 1) / ((k + 2) (k + 3)). Sets of low-discrepancy points may agree by chance at
+  /// an edge, because each set counts a whole number of samples beyond it. One sample more or less moves the sum of a
+  /// set by the jump J of the samples. Let t be the fraction that rounding hides, uniform a priori. All k sets agree
+  /// with probability t^k + (1 - t)^k, and f is the posterior mean of t (1 - t).
+  ///   independent samples : the variance of the samples replaces the variance of the sets, except for splats.
+  ///   splats   : the weights vary about 1, so a constant radiance would have noise. Therefore n_s m_s is the sum of
+  ///              the set minus c (w_s - n_s). w_s is the sum of the set's weights and c the weighted mean of the other
+  ///              sets. c does not depend on w_s, so the mean is unbiased. J^2 is the sum over the pixels nearby, times
+  ///              the mean squared weights of their samples.
+  ///   light paths : their mean and their variance, found in the same way, are added.
   PixelEstimate estimate(int x, int y) const;
+  /// Number of rays of the pixel's own samples.
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
-  /// Of paths from the lights, of as many as a sample of every pixel has; 0 where there are none.
+  /// Number of rays of light paths per sample of every pixel; 0 without light paths.
   double light_rays() const;
 
-  /// Means, and their variance where every pixel knows it.
+  /// Means of all pixels, with their variances if every pixel has at least two point sets.
   Image image() const;
 
-  /// The mean relative standard errors: root of the mean over pixels and channels of variance / radiance^2. Radiance is
-  /// that of the pixel and its neighbours, 3x3, so that a rare bright sample is not divided by itself; in the dark it
-  /// is half of the picture's mean. Infinite while a pixel does not know its variance.
+  /// Mean relative standard errors: the root of the mean of variance / radiance^2 over pixels and channels. The
+  /// radiance is the mean over the 3x3 neighbourhood, so that a rare bright sample is not divided by itself. It is at
+  /// least half of the image's mean. Infinite while the variance is unknown in some pixel.
   RelativeErrors relative_errors() const { return relative_errors(image()); }
-  /// The same for who has what image() gives.
+  /// As relative_errors(), for a caller that already has the result of image().
   RelativeErrors relative_errors(const Image& image) const;
 
-  /// Share of the pixels that are undecided, see SampleSums::deciding; a path from the lights counts as a sample.
+  /// Share of pixels with an effective sample count below 2. Light path contributions count like samples.
   double outlier_dominated() const;
 
  private:
@@ -174,35 +191,35 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  // J^2 of estimate(): of splats the sum over the pixels about, each times the square of its weight.
+  // J^2 of estimate(). With splats: the sum over the pixels nearby, each times the square of its weight.
   Eigen::Array3d squared_jump(int x, int y) const;
 
-  // Of one of the sets of a pixel, which are those from `first` on.
+  // Sum of a point set of a pixel. The pixel's sets start at `first`.
   Eigen::Array3d set_sum(std::size_t first, std::size_t set) const;
 
-  // Among the pixels whose samples count.
+  // Index into samples_, which include the pixels within reach outside the film.
   std::size_t sample_index(int x, int y) const {
     const int reach = options_.splat ? options_.splat->reach() : 0;
     return static_cast<std::size_t>(y + reach) * static_cast<std::size_t>(width_ + 2 * reach) +
            static_cast<std::size_t>(x + reach);
   }
 
-  // Of a pixel whose samples count.
+  // Effective sample count of a pixel within reach.
   double effective_sample_count(int x, int y) const;
 
-  // As many samples of every pixel as the paths from the lights go with.
+  // Number of samples of every pixel that the light paths correspond to.
   double light_count() const { return std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0); }
 
   int width_, height_, sets_;
   FilmOptions options_;
-  std::vector<Eigen::Array3d> sums_;  ///< sets_ of every pixel
-  std::vector<std::uint32_t> counts_; ///< the same
-  std::vector<double> weights_;       ///< the same, of splats; empty where there are none
-  std::vector<SampleSums> samples_;   ///< by place
+  std::vector<Eigen::Array3d> sums_;  ///< Radiance sums: sets_ entries for each pixel.
+  std::vector<std::uint32_t> counts_; ///< Sample counts, in the same order.
+  std::vector<double> weights_;       ///< Sums of splat weights, in the same order; empty without splats.
+  std::vector<SampleSums> samples_;   ///< By sample_index().
   std::vector<std::uint64_t> rays_;
-  std::vector<Eigen::Array3d> light_; ///< as sums_, of paths from the lights; empty where there are none
-  std::vector<LightSums> light_sums_; ///< of every pixel
-  std::vector<double> light_counts_;  ///< of every set
+  std::vector<Eigen::Array3d> light_; ///< Light path sums, in the order of sums_; empty without light paths.
+  std::vector<LightSums> light_sums_; ///< One entry for each pixel.
+  std::vector<double> light_counts_;  ///< One entry for each set.
   std::uint64_t light_rays_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A picture in memory.
+/// Images in memory.
 
 #include <render/core/types.h>
 
@@ -10,41 +10,49 @@
 
 namespace render {
 
-/// What the pixels of a picture show.
+/// The quantity that an image shows.
 struct Aov {
+  /// Kinds of quantities.
   enum Kind {
-    radiance,
-    normals,          ///< of what is seen: the shading normal n as the colour (n + 1) / 2; beyond all surfaces radiance
-    ambient_occlusion ///< of what is seen: the share of a uniform sky's light that nothing within `max_distance` keeps from
-                      ///< it; beyond all surfaces 1
+    radiance, ///< Radiance [W/(m^2 sr)].
+    normals,  ///< Shading normal n of the first hit as the colour (n + 1) / 2; without a hit the radiance.
+    /// Ambient occlusion of the first hit: visible share of a uniform sky up to `max_distance`; 1 without a hit.
+    ambient_occlusion
   };
+  /// The quantity.
   Kind kind;
-  double max_distance; ///< [scene units]
+  double max_distance; ///< Range of ambient occlusion [scene units].
 
+  /// A quantity; `r` is the range of ambient occlusion.
   constexpr Aov(Kind w = radiance, double r = mc::infinity<double>) : kind(w), max_distance(r) {}
+  /// Whether kind and range are equal.
   bool operator==(const Aov&) const = default;
 };
 
-/// Row-major pixels, the top row first, linear sRGB radiance; optionally the variance of each pixel's mean, per
-/// channel.
+/// Image of linear sRGB radiance, with optional variances. Rows are stored from the top, pixels from the left.
 struct Image {
-  int width = 0, height = 0;
-  std::vector<Spectrum> pixels;
-  std::vector<Spectrum> variance;                   ///< empty: unknown
-  std::map<std::string, std::vector<float>> layers; ///< further channels, by their names in OpenEXR, see layers.h
-  std::uint32_t estimates = 0;                      ///< independent estimates per pixel behind the variance; 0: unknown
-  /// The variance of a sum of many pixels is this times the sum of their variances, see SplatFilter.
+  int width = 0, height = 0;                        ///< Size [pixels].
+  std::vector<Spectrum> pixels;                     ///< Values.
+  std::vector<Spectrum> variance;                   ///< Variance of each pixel's mean, per channel; empty: unknown.
+  std::map<std::string, std::vector<float>> layers; ///< Further channels by their names in OpenEXR; see layers.h.
+  std::uint32_t estimates = 0; ///< Number of independent estimates per pixel behind the variance; 0: unknown.
+  /// The variance of a sum of many pixels is this times the sum of their variances; see SplatFilter.
   double noise_area = 1;
-  std::map<std::string, std::string> metadata; ///< command, seed, samples, commit
+  std::map<std::string, std::string> metadata; ///< Command, seed, samples, commit.
 
+  /// An image without pixels.
   Image() = default;
+  /// A black image.
   Image(int w, int h)
       : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), Spectrum::Zero()) {}
 
+  /// Index of pixel (x, y) in `pixels`.
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
+  /// Pixel (x, y).
   Spectrum& at(int x, int y) { return pixels[index(x, y)]; }
+  /// Pixel (x, y).
   const Spectrum& at(int x, int y) const { return pixels[index(x, y)]; }
 };
 

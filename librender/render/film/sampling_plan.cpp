@@ -12,25 +12,26 @@ namespace render {
 
 namespace {
 
-/// Of one sample of all pixels of a tile.
+/// Cost and variance of one sample of all pixels of a tile.
 struct TileCost {
   double rays = 0;
-  std::array<double, 9> variances = {}; ///< as the 3x3 tiles about see it; who is farther off sees what the middle has
+  /// Relative variances for planning each of the 3x3 tiles about this tile; the middle is for tiles farther off.
+  std::array<double, 9> variances = {};
 
   double variance() const { return variances[4]; }
-  /// As the tile at (dx, dy) from this one sees it.
+  /// Relative variance for planning the tile at (dx, dy) from this tile.
   double variance(int dx, int dy) const {
     return std::max(std::abs(dx), std::abs(dy)) > 1 ? variance() : variances[static_cast<std::size_t>(3 * dy + dx + 4)];
   }
 };
 
-/// Of the pixels of a tile.
+/// Sums over the pixels of a tile.
 struct Sum {
   Eigen::Array3d radiance = Eigen::Array3d::Zero();
   double pixels = 0;
 };
 
-/// What the tiles of a film need, row by row.
+/// Cost and variance of all tiles of a film, row by row.
 class Tiles {
  public:
   Tiles(const Film& film, ErrorScope scope, const Tiling& tiling)
@@ -60,14 +61,14 @@ class Tiles {
 
   int width, height;
   std::vector<TileCost> tile_costs;
-  std::vector<std::size_t> tile_of_pixel; ///< the tile of each pixel
-  double light = 0;                       ///< variance of one sample of all pixels that is due to paths from the lights
+  std::vector<std::size_t> tile_of_pixel; ///< The tile of each pixel.
+  double light = 0;                       ///< Relative variance of one sample of all pixels that is due to light paths.
 
  private:
   void add_variances(std::size_t tile, const PixelEstimate& pixel, double dark, ErrorScope scope) {
     light += (pixel.light_variance / (pixel.mean.square() + dark)).mean() * double(pixel.samples);
     const Eigen::Array3d variance =
-        pixel.variance - pixel.light_variance; // what more samples of the pixel make smaller
+        pixel.variance - pixel.light_variance; // without light paths, which more samples of the pixel do not improve
     if (!(variance > 0).any()) return;
     const int x = static_cast<int>(tile) % width, y = static_cast<int>(tile) / width;
     const auto tiles_about = [&](auto&& visit) {
@@ -94,7 +95,7 @@ class Tiles {
 
 constexpr int radius = 8;
 
-// Weights of the neighbours by their distance along both axes.
+// Weight of a neighbour by its distances along both axes: the inverse square of the distance, up to `radius`.
 std::array<std::array<double, radius + 1>, radius + 1> neighbour_weights() {
   std::array<std::array<double, radius + 1>, radius + 1> weights = {};
   for (std::size_t j = 0; j <= radius; ++j)
@@ -103,8 +104,7 @@ std::array<std::array<double, radius + 1>, radius + 1> neighbour_weights() {
   return weights;
 }
 
-// Rates as the wishes, of mean 1, none below `least`: c times the wishes, where the mean of max(least, c wish) is 1. It
-// rises with c.
+// Rates max(least, c w) for unnormalized rates w, with c such that the mean is 1. The mean increases with c.
 std::vector<double> normalized(const std::vector<double>& unnormalized_rates, double least) {
   const auto n = double(unnormalized_rates.size());
   const auto mean = [&](double c) {
@@ -147,7 +147,7 @@ std::vector<double> unnormalized_rates_of(const Tiles& tiles, ErrorScope scope, 
   return unnormalized_rates;
 }
 
-/// Rates, and what they cost as far as the pilot can tell: rays times variance.
+/// Rates, with the cost that the pilot predicts: variance times rays.
 struct RateCandidate {
   std::vector<double> rates;
   double variance = 0, rays = 0;
@@ -158,12 +158,13 @@ struct RateCandidate {
       rays += tile_costs[i].rays * rates[i];
     }
   }
+  /// The cost of all other tiles.
   double cost_without(std::size_t i, const TileCost& tile_cost) const {
     return (variance - tile_cost.variance() / rates[i]) * (rays - tile_cost.rays * rates[i]);
   }
 };
 
-// Every tile takes the candidate that costs all others least.
+// For each tile the rate of the candidate with the least cost of all other tiles.
 std::vector<double> best_of(const std::vector<RateCandidate>& candidates, const std::vector<TileCost>& tile_costs) {
   std::vector<double> rates(tile_costs.size());
   for (std::size_t i = 0; i < tile_costs.size(); ++i) {
@@ -176,10 +177,11 @@ std::vector<double> best_of(const std::vector<RateCandidate>& candidates, const 
   return rates;
 }
 
-// What is left of variance times rays is least, by Lagrange, where both are in these proportions.
+// Ratio of light paths to samples that minimizes variance times rays (Lagrange).
 double light_rate(const RateCandidate& samples, double variance, double rays) {
   if (rays == 0) return 1;
-  // No fewer, so that what the pilot missed is met later; not so many that the samples tell nothing of the time.
+  // At least 1, so that sampling continues where the pilot missed light paths. At most 4, so that samples still
+  // determine the time.
   constexpr double least = 1, most = 4;
   return std::clamp(std::sqrt(variance * samples.rays / (samples.variance * rays)), least, most);
 }

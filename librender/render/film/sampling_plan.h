@@ -1,45 +1,44 @@
 #pragma once
-/// How many samples each pixel gets, and how many paths from the lights there are.
+/// Adaptive sampling: the distribution of samples over pixels and light paths.
 
 #include <render/film/film.h>
 
 namespace render {
 
-/// How many samples each pixel gets, relative to their mean over the picture, and how many paths start at the lights.
+/// Number of samples of each pixel and of light paths, relative to a uniform distribution.
 struct SamplingPlan {
-  std::vector<float> rates = {}; ///< of mean 1, row by row from the top; empty: all 1
-  double light_path_scale = 1;   ///< paths from the lights, relative to those that go with the mean
+  std::vector<float> rates = {}; ///< Rate of each pixel, row by row from the top, with mean 1; empty: all 1.
+  double light_path_scale = 1;   ///< Number of light paths relative to the plan without adaption.
 
-  /// Of a pixel, where the mean over the picture is `mean`.
+  /// Number of samples of a pixel for `mean` samples per pixel over the image.
   std::uint32_t samples(std::size_t pixel, double mean) const {
     return static_cast<std::uint32_t>(std::lround(rates.empty() ? mean : mean * double(rates[pixel])));
   }
 };
 
-/// Squares of pixels whose samples are taken together.
+/// Square tiles of pixels that are sampled together.
 struct Tiling {
-  int side = 1;     ///< [pixels]
-  int x = 0, y = 0; ///< of the film's first pixel in its tile
+  int side = 1;     ///< Width and height of a tile [pixels].
+  int x = 0, y = 0; ///< Position of the film's first pixel in its tile.
 };
 
-/// Samples where the error is, as far as a pilot has seen. A pixel's rate follows from its neighbours within 8 pixels,
-/// not from itself: so the samples of the pilot and those that it asks for are averaged with weights that do not
-/// depend on their values, no pixel is biased and its error bar stays true. (That the mean is 1 depends on all pixels,
-/// on each of n by about 1/n.) Where pixels share paths by tiles the same holds for these: all of a tile have one rate,
-/// which follows from the tiles within 8 of it.
-///   Of each neighbour: v, variance / (r s + m^2 / 4) of one sample, averaged over the channels, where m is the mean
-///   radiance of the picture, r the pixel's and s = r; and c, the rays of one sample. Neighbours weigh by the inverse
-///   square of their distance.
-///   For the error of the picture s is the mean of the 3x3 pixels about (of tiles: tiles) where that is less, so that a
-///   rare bright sample is not divided by its own square; these 3x3 leave out the one whose rate it is. Rates are a
-///   power of sqrt(v / c): the one among 0 (even), .5, .75, 1 and 1.25 at which the variance times rays of the other
-///   pixels is least by the pilot, so that what neighbours cannot tell costs little.
-///   For the worst block rates are as v: all blocks err alike.
-///   Paths from the lights: by the same rule, sqrt(variance / rays) of all of them to that of all samples, from 1 to 4;
-///   s = r, so that no pixel adds more than all its samples are worth.
-///   least  : no rate is below, so that what the pilot missed is met later
-///   threads: the plan does not depend on them
-///   throws : Error unless 0 < least <= 1
+/// Plans samples in proportion to the error that a pilot measured. See docs/methods/adaptive-sampling.md. The rate of a
+/// pixel follows from its neighbours within 8 pixels, never from its own samples. The samples of the pilot and the
+/// planned samples are averaged with weights that do not depend on their values. So no pixel is biased, and its error
+/// bar stays valid. The normalisation to mean 1 depends on all n pixels, on each by about 1/n. If pixels share paths in
+/// tiles, tiles take the place of pixels: one rate per tile, from the tiles within a distance of 8.
+///   v     : variance / (r s + m^2 / 4) of one sample of a neighbour, averaged over channels. m is the image's mean
+///           radiance and r the neighbour's radiance. s is the minimum of r and of the mean over its 3x3 pixels without
+///           the planned pixel, so that a rare bright sample is not divided by its own square.
+///   c     : number of rays of one sample of a neighbour. Neighbours weigh by the inverse square of their distance.
+///   rates : for ErrorScope::image a power of sqrt(v / c). The exponent is 0, .5, .75, 1 or 1.25, whichever minimizes
+///           variance times rays over the other pixels of the pilot. Thus badly predicted variances cost little.
+///   worst block : rates are proportional to v with s = r, so that all blocks have the same error.
+///   light paths : sqrt(variance / rays) of all light paths over the same ratio of all samples, clamped to [1, 4], with
+///                 s = r.
+///   least   : lower bound of all rates, so that sampling continues where the pilot missed features.
+///   threads : number of threads; the plan does not depend on it.
+///   throws  : Error unless 0 < least <= 1.
 SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorScope scope = ErrorScope::image, int threads = 0,
                            const Tiling& tiling = {});
 

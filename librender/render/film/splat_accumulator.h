@@ -1,26 +1,27 @@
 #pragma once
-/// Samples that count for several pixels.
+/// Accumulation of splats.
 
 #include <render/film/film.h>
 
 namespace render {
 
-/// What the samples of one pixel's square give to the pixels about it, see SplatFilter.
+/// Accumulates the splats of samples in the square of one pixel; see SplatFilter.
 class SplatAccumulator {
  public:
-  /// The filter must outlive it.
+  /// Accumulates splats with a filter, which must outlive this.
   explicit SplatAccumulator(const SplatFilter& filter);
 
-  /// A sample at `offset` from the pixel's centre [pixels].
+  /// Adds a sample at an offset from the pixel's centre [pixels].
   void add(const Vec2& offset, const Spectrum& radiance);
 
-  /// Adds to a set of the film what was added since the last time. The pixel (x, y) may lie outside of the film.
+  /// Adds the splats since the last call to a point set of the film. The samples lie in the square of pixel (x, y), which
+  /// may be outside the film.
   void flush_to(Film& film, int x, int y, int set);
 
  private:
   const SplatFilter& filter_;
   std::vector<double> columns_, rows_;
-  std::vector<Eigen::Array4d> sums_; ///< of weights times (radiance, 1), row by row
+  std::vector<Eigen::Array4d> sums_; ///< Sums of weights times (radiance, 1), row by row.
 };
 
 } // namespace render

@@ -15,7 +15,7 @@ Color reinhard(const Color& c) {
   return y > 0 && std::isfinite(y) ? Color(c / (1 + y)) : c;
 }
 
-// [Hable10]: shoulder, linear part, toe; white is where 2 x = 11.2.
+// [Hable10]: shoulder, linear part and toe. White is at 2 x = 11.2.
 double hable(double x) {
   constexpr double a = 0.15, b = 0.5, c = 0.1, d = 0.2, e = 0.02, f = 0.3;
   return (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f;
@@ -23,7 +23,7 @@ double hable(double x) {
 
 Color filmic(const Color& c) {
   static const double white = hable(11.2);
-  // Beyond every white there is none whiter, and an infinite ratio.
+  // Values far beyond white map to 1; for infinite x the formula would be inf / inf.
   return c.unaryExpr([](double x) { return x > 1e3 ? 1.0 : hable(2 * std::max(x, 0.0)) / white; });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// From radiance to what a screen shows.
+/// Tone mapping from radiance to display values.
 
 #include <render/film/image.h>
 
@@ -8,26 +8,31 @@
 
 namespace render {
 
-/// How bright values are brought below 1.
+/// Curves that compress bright values to [0, 1].
 enum class ToneCurve {
-  clamp,    ///< min(x, 1), per channel
-  reinhard, ///< luminance L to L / (1 + L), the colour kept [ReinhardEtAl02, equation 3]; channels then end at 1
-  filmic    ///< per channel a film's S: dark ends darker, 11.2 / 2 is white, .18 becomes .13 [Hable10]
+  clamp, ///< min(x, 1) per channel.
+  /// Luminance L becomes L / (1 + L) and the hue stays [ReinhardEtAl02, equation 3]; then channels are clamped to 1.
+  reinhard,
+  filmic ///< Film curve per channel: dark values become darker, 11.2 / 2 is white, .18 becomes .13 [Hable10].
 };
+/// Names of the curves, in their order.
 inline constexpr std::array<std::string_view, 3> tone_curve_names = {"clamp", "reinhard", "filmic"};
-/// Throws Error, naming the nearest, for an unknown name.
+/// The curve with this name.
+///   throws : Error, with the nearest name, for an unknown name.
 ToneCurve tone_curve_from(std::string_view name);
 
+/// Tone curve and exposure.
 struct ToneMapping {
-  ToneCurve curve = ToneCurve::clamp;
-  double exposure = 0; ///< stops: radiance is multiplied by 2^exposure first
+  ToneCurve curve = ToneCurve::clamp; ///< Compression of bright values.
+  double exposure = 0;                ///< Exposure [stops]: radiance is multiplied by 2^exposure before the curve.
 };
 
-/// Linear sRGB in [0, 1] per channel; NaN stays NaN.
+/// Tone-mapped linear sRGB in [0, 1] per channel. NaN stays NaN.
 Eigen::Array3d tone_map(const Spectrum& radiance, const ToneMapping& tone);
 
-/// The exposure that brings the geometric mean of the luminances that are not 0 to .18, a middle grey; 0 for a black
-/// image. Source: [ReinhardEtAl02, equations 1 and 2], whose small constant for black pixels would be one with a unit.
+/// Exposure [stops] that maps the geometric mean of the positive luminances to .18, a middle grey; 0 for a black image.
+///   Source : [ReinhardEtAl02, equations 1 and 2], without the small constant for black pixels, which would depend on
+///            the unit of radiance.
 double auto_exposure(const Image& image);
 
 } // namespace render

@@ -18,7 +18,7 @@ struct PathOptions {
 /// Path tracer: estimates the radiance along camera rays as the strategy says. The scene must outlive it. Immutable, so
 /// threads can share it.
 ///   Unsampled lights : lights without is_sampled() are found by hits alone and count fully, in every strategy.
-///   Light paths : with a LightTracer, contributions carry MIS weights for light paths. The caller adds the light paths.
+///   Light paths : with a LightTracer, contributions carry MIS weights against light paths, which the caller traces.
 ///   Caustics    : connections to lights cannot find them. `mis` aims up to a quarter of its directions at spheres of
 ///                 glass or mirror.
 ///   Splitting   : a path splits at its first non-delta vertex, by default in two. The path to this vertex and the
