@@ -1,33 +1,34 @@
 #pragma once
-/// The laws of scattering functions.
+/// Checks of scattering functions: statistical tests, determinism and the laws of physics.
 
 #include <mc/check/check_subject.h>
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
 namespace mc {
 
-/// A BSDF with fixed wo as a subject on the sphere of wi; see bsdf_distribution.
+/// Returns the density of wi for a fixed wo as a subject on the sphere; see bsdf_distribution.
 Subject bsdf_subject(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options = {});
 
-/// A BSDF over scalar S with fixed wo as a subject on the sphere of wi; see any_bsdf and bsdf_distribution. A phase function is
-/// a BSDF without the cosine.
+/// Returns the density of wi for a fixed wo as a subject on the sphere, for a BSDF over scalar S; see any_bsdf. A phase
+/// function is a BSDF without the cosine.
 template <Real S, BsdfOver<S> Bsdf>
 Subject bsdf_subject(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {
   return bsdf_subject(any_bsdf<S>(bsdf), Vec3<double>(wo.template cast<double>()), options);
 }
 
-/// Everything check_subject finds for one wo, that sample is a function of its random numbers, and the physics:
-///   sign        : f finite and >= 0, for sampled wi and for uniform ones
-///   support     : pdf > 0 wherever f > 0 at uniform wi, or the estimator would miss light
-///   reciprocity : f(wo, wi) = f(wi, wo), with the squared index across the surface; delta lobes by their shares of the
-///                 energy
-///   energy      : at most 1 (exactly 1 where lossless) in every channel, at wo and at 16 more directions a side,
-///                 one-sided at five standard errors, and once more with all samples where these find the most; the
-///                 white furnace values are figures of the report
-/// Directions on the other side than wo are only looked from where samples cross the surface: a BSDF of one side may be
+/// Tests sample and pdf for one wo like check_subject, tests that sample is deterministic, and tests these laws:
+///   sign        : f is finite and >= 0 for sampled and for uniform wi.
+///   support     : pdf > 0 wherever f > 0, at uniform wi. Otherwise an estimator loses light.
+///   reciprocity : f(wo, wi) = f(wi, wo). Across the surface the squared ratio of the indices enters. Delta lobes are
+///                 compared by the share of the energy that they carry.
+///   energy      : the white furnace albedo is at most 1 in every channel; exactly 1 for a lossless BSDF. The law tests
+///                 wo and 16 more directions on each side, one-sided at five standard errors. It repeats the brightest
+///                 direction with all samples. The report lists the albedos as figures.
+/// Directions on the side opposite to wo are tested only if samples cross the surface: a one-sided BSDF may be
 /// undefined there.
 Report check_bsdf(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options = {});
 
+/// The same for a BSDF over scalar S. A BSDF that lacks a required member does not compile.
 template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {
   static_assert(detail::samples_directions<Bsdf, S>, "a BSDF needs sample(wo, uc, u) const or sample(wo, u) const");
   static_assert(detail::has_eval<Bsdf, S>, "a BSDF needs eval(wo, wi) const");

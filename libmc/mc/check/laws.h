@@ -1,5 +1,5 @@
 #pragma once
-/// The laws that every sampler obeys.
+/// Checks of distributions: deterministic laws and statistical tests.
 
 #include <mc/check/check_subject.h>
 #include <mc/check/laws/law.h>
@@ -8,31 +8,33 @@
 
 namespace mc {
 
-/// The deterministic laws that the sampler has what they need for, each one or more Checks:
-///   boundary : sample finite and in the domain, pdf positive and finite, for u in the product of the ends, quarters
-///               and the middle of [0,1) with their neighbours, and beside the branches that find_breaks sees on lines
-///               along each axis; apart (Fault::measure_zero) sets of measure zero: u with a coordinate of exactly 0,
-///               single u whose neighbours are right where the density is 0 at one point, and samples rounded onto the
-///               edge of the domain where the density is 0 or infinite, but not beside it
-///   determinism : the same u gives the same point, the same point the same pdf and inverse, bit for bit, at once and
-///               after one, two and three other samples; other u give other points
-///   batch_consistency : samples and densities of many at once are those of one alone, but for rounding (with sample_many)
-///   support   : eval finite and >= 0, and pdf > 0 wherever eval > 0, at 20000 uniform points of the chart (with eval)
-///   inverse   : invert(sample(u)) = u at 20000 random u, within invert_eps               (with invert)
-///   jacobian  : |det d sample / d u| pdf = 1 to 1e-20 by differences over 50 digits, or without an oracle to 1e-6 in
-///               double                                                                   (with invert)
-///   precision : sample and pdf against the 50-digit oracle, within pdf_eps, and sample_eps beyond what rounding u
-///               makes (with an oracle)
+/// Returns the checks of every deterministic law that applies to the distribution. Each law gives one or more Checks:
+///   boundary          : sample is finite and in the domain, and pdf is positive and finite, at critical values of u.
+///                       These are all combinations of the ends, quarters and middle of [0,1) with their neighbours.
+///                       find_breaks adds the neighbours of the branches along each axis. Faults of measure zero get a
+///                       Check of their own (Fault::measure_zero): u with a coordinate of exactly 0; single u with
+///                       density 0 but correct neighbours; samples rounded onto an edge where the density is 0 or
+///                       infinite, but not beside it.
+///   determinism       : equal u give equal points; equal points give equal pdf and invert, bit for bit. Repeated calls
+///                       follow at once and after one, two and three other samples. Different u give different points.
+///   batch_consistency : samples and densities of a batch equal the results of single calls, up to rounding (needs
+///                       sample_many).
+///   support           : eval is finite and >= 0, and pdf > 0 wherever eval > 0, at 20000 uniform points of the chart
+///                       (needs eval).
+///   inverse           : |invert(sample(u)) - u| <= invert_eps eps, at 20000 random u (needs invert).
+///   jacobian          : |det d sample / d u| pdf = 1. Differences over 50 digits must agree to 1e-20; without an
+///                       oracle, differences in double to 1e-6 (needs invert).
+///   precision         : sample and pdf agree with the 50-digit oracle within sample_eps and pdf_eps. The effect of
+///                       rounding u is subtracted from the error of sample (needs an oracle).
 std::vector<Check> check_deterministic_laws(const AnyDistribution& distribution, const LawOptions& options);
 
-/// The sampler with the bounds of its contract set for the statistical tests too.
+/// Returns the distribution with the tolerances of `options`, which the statistical tests use too.
 AnyDistribution with_tolerances(AnyDistribution distribution, const LawOptions& options);
 
-/// The deterministic laws, and everything that check_subject does: per-sample laws, mass, chi-squares, tails, KS,
-/// cells, inverted samples.
+/// Tests the deterministic laws, then runs check_subject unless options.samples is 0.
 Report check_laws(const AnyDistribution& distribution, const LawOptions& options = {});
 
-/// The same for a warp, or any struct with a domain, sample and pdf.
+/// The same for a warp, or any struct with Domain, domain(), sample(u) and pdf(x).
 template <class W> Report check_laws(const W& warp, const LawOptions& options = {}) {
   static_assert(detail::has_domain<W>, "check_laws: a warp needs `using Domain = ...` and domain() const");
   static_assert(!detail::has_domain<W> || detail::has_chart<W>,
@@ -45,7 +47,7 @@ template <class W> Report check_laws(const W& warp, const LawOptions& options = 
   else return {};
 }
 
-/// The same for a pair of functions on a domain: sample(u) -> x or optional x, pdf(x).
+/// The same for a pair of functions on a domain: sample(u) -> x or an optional x, and pdf(x).
 template <Domain D, class Draw, class Pdf>
 Report check_laws(const D& domain, Draw sample, Pdf pdf, const LawOptions& options = {}) {
   return check_laws(

@@ -1,7 +1,8 @@
 #ifndef MC_CHECK_PLUGIN_H
 #define MC_CHECK_PLUGIN_H
-/// Samplers and integrands compiled by anyone, in any language that can be called from C, for `carlo validate --plugin
-/// ./mine.so` and `carlo converge --plugin ./mine.so`. C99 and C++.
+/// Interface of plugins: distributions and integrands compiled to a shared library, for `carlo validate --plugin
+/// ./mine.so` and `carlo converge --plugin ./mine.so`. Any language that exports C functions works. This header is
+/// valid C99 and C++.
 ///
 ///   static int32_t sample(const void *self, const double *u, double *x) { ... }
 ///   static double pdf(const void *self, const double *x) { ... }
@@ -11,15 +12,14 @@
 ///   cc -O2 -fPIC -shared mine.c -o mine.so && carlo validate --plugin ./mine.so
 ///
 /// Contract of every function below:
-///   pure      : the same arguments give the same result, bit for bit; nothing is remembered between two calls
-///   arguments : points to as many doubles as the sampler has uniforms (u) or coordinates (x); what is not an output is
-///               read only
-///   isolation : called from one thread of a process of its own, so that a crash or an endless loop ends no more than
-///               that
-/// A field that is left out is 0, and 0 is its default.
+///   pure      : equal arguments give equal results, bit for bit; no state persists between calls.
+///   arguments : u is an array of `uniforms` doubles, x an array of the coordinates of a point. Inputs are read only.
+///   isolation : each plugin runs in a process of its own, on one thread. A crash or an endless loop ends only that
+///               process.
+/// The default of every field is 0; fields that are left out are 0.
 ///
-/// Structs grow at their end only, and carlo is told their sizes: a plugin that was compiled against an older version
-/// of this header works on.
+/// New fields are added at the end of a struct, and carlo reads the sizes of the structs. A plugin compiled against an
+/// older version of this header keeps working.
 
 #include <stdint.h>
 
@@ -27,109 +27,112 @@
 extern "C" {
 #endif
 
-/// Version of the structs below. carlo takes plugins of this and of every earlier one, and refuses later ones.
-///   2 : MC_PRODUCT, outcomes beside a density, breaks, open intervals, integrands
+/// Version of the structs below. carlo accepts plugins of this version and of every earlier version, and rejects later
+/// ones.
+///   2 : adds MC_PRODUCT, outcomes beside a density, breaks, open intervals and integrands.
 #define MC_PLUGIN_ABI 2
 
-/// The set that the points x lie in, and what the density is measured against.
+/// The domain of the points x, and the measure of the density.
 enum mc_domain {
   MC_INTERVAL = 1,   ///< x[0] in [lo[0], hi[0]], either end may be infinite; 1/length
-  MC_BOX = 2,        ///< x[i] in [lo[i], hi[i]], finite, i < dim; 1/length, 1/area or 1/volume
+  MC_BOX = 2,        ///< x[i] in [lo[i], hi[i]] for i < dim, finite; 1/length, 1/area or 1/volume
   MC_DISK = 3,       ///< x[0]^2 + x[1]^2 <= 1; 1/area
   MC_TRIANGLE = 4,   ///< barycentric: x[0] >= 0, x[1] >= 0, x[0] + x[1] <= 1, of area 1/2; 1/area
   MC_SPHERE = 5,     ///< unit vectors x[0..2]; 1/steradian. Lobes narrower than 1e-6 rad are resolved about +z only
   MC_HEMISPHERE = 6, ///< unit vectors with x[2] >= 0; 1/steradian
   MC_DISCRETE =
       7, ///< x[0] = 0, 1, ..., hi[0] - 1, at most 2^24 outcomes; pdf is the probability. No invert, eval or weight
-  /// What `parts` lists, as for --domain: "ball"; "annulus=0.5"; "x=-inf:inf,y=-inf:inf" is the plane, "sphere,t=0:1" a
-  /// product. At most three dimensions in four coordinates
+  /// The product of the factors in `parts`, in the syntax of --domain: "ball"; "annulus=0.5"; "x=-inf:inf,y=-inf:inf"
+  /// is the plane; "sphere,t=0:1" is a product. At most three dimensions and four coordinates.
   MC_PRODUCT = 8
 };
 
-/// What sample returns: nothing, a point, or, by MC_OUTCOME + k, the discrete outcome k (a delta lobe, say).
+/// Result of sample: a failure, a point x, or discrete outcome k (for example a delta lobe) as MC_OUTCOME + k.
 enum mc_drawn { MC_FAILED = 0, MC_POINT = 1, MC_OUTCOME = 2 };
 
-/// What the sampler computes in: it sets the default tolerances, and u and x are rounded to it.
+/// The scalar type of the plugin's arithmetic. It sets the default tolerances; u and x are rounded to it.
 enum mc_scalar { MC_DOUBLE = 0, MC_FLOAT = 1 };
 
-/// A number that `carlo validate --params "alpha=0.1"` may set.
+/// A parameter of a plugin, set by `carlo validate --params "alpha=0.1"`.
 typedef struct mc_parameter {
   const char* name; ///< letters, digits and _
-  double value;     ///< where it is not set
+  double value;     ///< the default value
   double lo, hi;    ///< lo <= value <= hi
 } mc_parameter;
 
+/// A distribution: a domain, sample and pdf; the other functions are optional.
 typedef struct mc_sampler {
-  const char* name;    ///< letters, digits and _
-  int32_t domain;      ///< one of mc_domain
-  int32_t dim;         ///< of MC_BOX: 1 to 3
-  double lo[3], hi[3]; ///< of MC_INTERVAL, MC_BOX (all 0: the unit interval or cube) and MC_DISCRETE
-  int32_t uniforms;    ///< numbers that one sample takes, at most 6; 0: as many as the domain has dimensions
-  int32_t scalar;      ///< one of mc_scalar
-  int32_t may_fail;    ///< 1: sample may return 0, and the pdf integrates to the probability that it does not
-  int32_t parameter_count;
-  const mc_parameter* parameters;
+  const char* name;        ///< letters, digits and _
+  int32_t domain;          ///< one of mc_domain
+  int32_t dim;             ///< dimension of MC_BOX: 1 to 3
+  double lo[3], hi[3];     ///< bounds of MC_INTERVAL, MC_BOX (all 0: the unit interval or cube) and MC_DISCRETE
+  int32_t uniforms;        ///< length of u for one sample, at most 6; 0: the dimension of the domain
+  int32_t scalar;          ///< one of mc_scalar
+  int32_t may_fail;        ///< 1: sample may return MC_FAILED, and the pdf integrates to the probability of success
+  int32_t parameter_count; ///< length of parameters
+  const mc_parameter* parameters; ///< default values and ranges
 
   double pdf_tolerance;    ///< relative rounding error of the pdf's integral; 0: 64 epsilons of the scalar
   double weight_tolerance; ///< relative error of the weight; 0: 1e-4
-  double invert_tolerance; ///< |invert(sample(u)) - u|; 0: the square root of the scalar's epsilon
+  double invert_tolerance; ///< bound on |invert(sample(u)) - u|; 0: the square root of the scalar's epsilon
 
-  /// Optional: makes what the other functions get as `self` out of the parameters, in their order; NULL refuses them.
-  ///           Without it `self` is the array of parameters itself, a const double *.
+  /// Optional: returns the `self` that the other functions receive, for the given parameters in their order; NULL
+  /// rejects the parameters. Without create, `self` is the array of parameters, a const double *.
   void* (*create)(const double* parameters);
-  void (*destroy)(void* self); ///< optional: frees what create made
+  void (*destroy)(void* self); ///< optional: frees the result of create
 
-  /// u in [0,1)^uniforms -> x in the domain. Returns one of mc_drawn; x means something for MC_POINT.
+  /// Maps u in [0,1)^uniforms to x in the domain. Returns one of mc_drawn; x is used only for MC_POINT.
   int32_t (*sample)(const void* self, const double* u, double* x);
-  /// The density at any x of the domain, finite; 0 outside the support, > 0 at every sample.
+  /// Returns the density at any x of the domain: finite, 0 outside the support, > 0 at every sample.
   double (*pdf)(const void* self, const double* x);
-  /// Optional: the u, with uniforms = dimension of the domain, such that sample(u) = x for x out of sample. Returns 1.
-  ///           It states that sample is one to one, so that |det d sample / d u| pdf = 1 is tested too.
+  /// Optional: for a result x of sample, sets u to the inverse image, so that sample(u) = x, and returns 1. Requires
+  /// uniforms = dimension of the domain. An inverse states that sample is one-to-one, so |det d sample / d u| pdf = 1
+  /// is tested too.
   int32_t (*invert)(const void* self, const double* x, double* u);
-  /// Optional: the integrand f >= 0 (with the cosine where there is one) that the sampler is meant for. Where f > 0,
-  ///           pdf > 0.
+  /// Optional: returns the integrand f >= 0 that the distribution is made for, including any cosine. f > 0 requires pdf
+  /// > 0.
   double (*eval)(const void* self, const double* x);
-  /// Optional, with eval: the weight f(x) / pdf(x) that the sampler states for its sample x at u.
+  /// Optional, with eval: returns the stated weight f(x) / pdf(x) of the sample x at u.
   double (*weight)(const void* self, const double* u, const double* x);
 
   /* Since version 2. */
-  const char* parts;     ///< of MC_PRODUCT
-  int32_t outcomes;      ///< discrete ones beside the density, at most 1000
-  int32_t open_interval; ///< 1: sample wants u in (0,1)^uniforms, no u is 0
-  /// With outcomes: the probability of outcome k. The pdf integrates to what they leave of 1.
+  const char* parts;     ///< factors of MC_PRODUCT
+  int32_t outcomes;      ///< number of discrete outcomes beside the density, at most 1000
+  int32_t open_interval; ///< 1: sample requires u in (0,1)^uniforms, without 0
+  /// With outcomes: returns the probability of outcome k. The pdf integrates to 1 minus the sum of these probabilities.
   double (*probability)(const void* self, int32_t k);
-  /// Optional: where the density jumps along axis k of the domain, k < its dimensions: what is constant between is then
-  ///           exact. An axis is a coordinate of an interval or box; radius and azimuth in degrees (disk, annulus);
-  ///           angle from +z and azimuth in degrees (sphere, hemisphere). Sets *places to ascending numbers that stay
-  ///           valid as long as self, and returns how many.
+  /// Optional: sets *places to the ascending positions where the density jumps along axis k, and returns their number.
+  /// k is less than the dimension of the domain. A density that is constant between the positions is integrated
+  /// exactly. The array stays valid as long as self. Units: the coordinate of an interval or box; radius and azimuth in
+  /// degrees (disk, annulus); angle from +z and azimuth in degrees (sphere, hemisphere).
   int32_t (*breaks)(const void* self, int32_t axis, const double** places);
 } mc_sampler;
 
 /// An integral over a box, for `carlo converge --plugin` and `carlo trade --plugin`.
 typedef struct mc_integrand {
-  const char* name;  ///< letters, digits and _
-  const char* title; ///< optional: one line
-  int32_t dim;       ///< 1 to 64
-  int32_t has_truth; ///< 1: truth is the integral
-  double truth;
-  const double *lo, *hi; ///< dim bounds each, finite; NULL: the unit cube
-  /// The integrand at x, dim numbers.
+  const char* name;      ///< letters, digits and _
+  const char* title;     ///< optional: one line
+  int32_t dim;           ///< dimension, 1 to 64
+  int32_t has_truth;     ///< 1: `truth` is the exact integral
+  double truth;          ///< the exact integral, if has_truth
+  const double *lo, *hi; ///< dim finite bounds each; NULL: the unit cube
+  /// Returns the integrand at x, an array of dim numbers.
   double (*eval)(const double* x);
-  /// Optional: count of them at once, values[i] = eval(x + i dim).
+  /// Optional: evaluates `count` points at once, values[i] = eval(x + i dim).
   void (*eval_many)(int64_t count, const double* x, double* values);
 } mc_integrand;
 
-/// What mc_plugin, the one function that a plugin exports, returns; it stays valid and unchanged.
+/// Result of mc_plugin, the only function that a plugin exports. It stays valid and unchanged.
 typedef struct mc_plugin_info {
-  uint32_t abi;          ///< MC_PLUGIN_ABI
-  uint32_t sampler_size; ///< sizeof(mc_sampler)
-  uint32_t sampler_count;
-  const mc_sampler* samplers;
+  uint32_t abi;               ///< MC_PLUGIN_ABI
+  uint32_t sampler_size;      ///< sizeof(mc_sampler)
+  uint32_t sampler_count;     ///< length of samplers
+  const mc_sampler* samplers; ///< the distributions
 
   /* Since version 2. */
-  uint32_t integrand_size; ///< sizeof(mc_integrand)
-  uint32_t integrand_count;
-  const mc_integrand* integrands;
+  uint32_t integrand_size;        ///< sizeof(mc_integrand)
+  uint32_t integrand_count;       ///< length of integrands
+  const mc_integrand* integrands; ///< the integrands
 } mc_plugin_info;
 
 #ifdef __GNUC__
@@ -147,7 +150,7 @@ MC_PLUGIN_EXPORT const mc_plugin_info* mc_plugin(void);
     return &info;                                                                                                      \
   }
 
-/// Define mc_plugin: for an array of samplers, for one of integrands, and for both.
+/// Each macro defines mc_plugin: for an array of samplers, for an array of integrands, or for both.
 #define MC_PLUGIN(samplers) MC_PLUGIN_INFO(MC_PLUGIN_COUNT(samplers), samplers, sizeof(mc_integrand), 0, 0)
 #define MC_INTEGRANDS(integrands) MC_PLUGIN_INFO(0, 0, sizeof(mc_integrand), MC_PLUGIN_COUNT(integrands), integrands)
 #define MC_PLUGIN_WITH_INTEGRANDS(samplers, integrands)                                                                \

@@ -1,5 +1,5 @@
 #pragma once
-/// Counts in cells as a report shows them.
+/// Summaries of the counts in cells, for reports.
 
 #include <mc/check/fit/expected/partition.h>
 #include <mc/check/fit/tests/cell_tests.h>
@@ -10,22 +10,22 @@
 
 namespace mc {
 
-/// The five cells or outcomes whose counts are farthest from what the density claims, worst first. The first cells lie
-/// in `boxes`, the others are outcomes.
-///   scale : what a cell's p is multiplied by to give its expected count
+/// Returns the five cells or outcomes with the largest |observed - expected| / sqrt(expected), worst first. The first
+/// boxes.size() cells lie in `boxes`; the others are outcomes.
+///   scale : factor from a cell's p to its expected count.
 std::vector<WorstCell> worst_cells(const Subject& subject, const std::vector<UnitBox>& boxes,
                                    const std::vector<Cell>& cells, double scale);
 
-/// "region theta 0 to 60 deg, phi 0 to 360 deg, about (0, 0, 1), contains 120 samples, 64.0 expected (z = 7.0)": the
-/// cell, aligned run of 2, 4, 8, ... cells, or outcome with the largest |z|, given the sum of all counts. Empty if no |z|
-/// reaches 4, which chance explains.
+/// Describes the cell, aligned run of 2, 4, 8, ... cells, or outcome with the largest |z|, given the sum of all counts.
+/// Returns for example "region theta 0 to 60 deg, phi 0 to 360 deg, about (0, 0, 1), contains 120 samples, 64.0
+/// expected (z = 7.0)". Returns an empty string if all |z| < 4, which chance explains.
 std::string describe_worst_region(const Subject& subject, const std::vector<UnitBox>& boxes,
                                   const std::vector<Cell>& cells);
 
-/// All counts, of cells and of outcomes.
+/// Appends the counts of all cells and outcomes to `evidence`.
 void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, PlotData& evidence);
 
-/// The subject's axes, named v0, v1, ... where it names none.
+/// Returns the subject's axes; axes without a name are called v0, v1, ...
 std::vector<Axis> named_axes(const Subject& subject);
 
 } // namespace mc

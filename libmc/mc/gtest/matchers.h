@@ -1,16 +1,15 @@
 #pragma once
 /// GoogleTest assertions for distributions, BSDFs and means.
-///   EXPECT_WARP_LAWS(warp[, mc::LawOptions])        : every law of laws.h
-///   EXPECT_BSDF_LAWS(bsdf, wo[, mc::BsdfOptions])   : every law of bsdf_laws.h for the fixed direction wo, a mc::Vec3.
-///                                                     docs/methods/bsdf-conventions.md has the conventions: eval
-///                                                     without the cosine, unit vectors, +z is the normal
-///   EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain[, mc::SubjectOptions])
-///                                                   : the statistical tests; sample(u) or sample(mc::Pcg&) returns a
-///                                                     point or an optional point
-///   EXPECT_MEAN(values, value[, alpha = 0.001])     : Student's t test; values are a range of numbers
+///   EXPECT_WARP_LAWS(warp[, mc::LawOptions])      : every law and test of laws.h.
+///   EXPECT_BSDF_LAWS(bsdf, wo[, mc::BsdfOptions]) : every law and test of bsdf_laws.h for the fixed direction wo, an
+///     mc::Vec3. Conventions: eval without the cosine, unit vectors, +z is the normal
+///     (docs/methods/bsdf-conventions.md).
+///   EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain[, mc::SubjectOptions]) : the statistical tests; sample(u) or
+///     sample(mc::Pcg&) returns a point or an optional point.
+///   EXPECT_MEAN(values, value[, alpha = 0.001])   : Student's t test of a range of numbers.
 /// A failure begins with the finding: observed value, expected value and place (u, direction with its angles, or cell).
-/// The likely cause and the check follow. The last line counts the other checks that fail; it names the call that shows
-/// them. Seeds are fixed: a test that passes keeps passing. docs/methods/checks.md describes every check.
+/// The likely cause and the check follow. The last line gives the number of other failed checks and the call that
+/// prints them. Seeds are fixed: a test that passes keeps passing. docs/methods/checks.md describes every check.
 
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/laws.h>
@@ -26,8 +25,8 @@ namespace mc {
 
 namespace detail {
 
-// Whether the arguments of the macros have the required members. Constants, not concepts: compilers explain failed
-// concepts at length.
+// Whether the arguments of the macros have the required members. Constants instead of concepts, because compilers
+// explain failed concepts at length.
 template <class W> constexpr bool is_distribution = ContinuousDistribution<std::remove_cvref_t<W>>;
 template <class Bsdf, class V>
 constexpr bool is_bsdf = BsdfOver<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>;
@@ -42,12 +41,14 @@ inline constexpr std::string_view full_bsdf_laws =
 
 } // namespace detail
 
-/// hint : how to get the full report, "; mc::check_laws(...)..."
+/// Converts a report to a result of GoogleTest.
+///   hint : how to get the full report, "; mc::check_laws(...)...".
 inline testing::AssertionResult assert_passed(const Report& report, std::string_view hint) {
   if (report.passed()) return testing::AssertionSuccess();
   return testing::AssertionFailure() << report.to_string(ReportText::brief, hint);
 }
 
+/// Result of EXPECT_WARP_LAWS; the expression names the subject unless the options do.
 template <class W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
   if constexpr (detail::is_distribution<W>) return assert_passed(check_laws(warp, options), detail::full_laws);
@@ -72,6 +73,7 @@ testing::AssertionResult samples_match_pdf(const char* expression, Sample sample
   else return testing::AssertionFailure();
 }
 
+/// Result of EXPECT_MEAN.
 template <class Values>
 testing::AssertionResult has_mean(const char* expression, const Values& values, double value, double alpha = 0.001) {
   Moments moments;
@@ -91,7 +93,7 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
 } // namespace mc
 
 // Each macro checks the types of its arguments before any call, so that compilers name the missing member in a few
-// lines. The check stands outside the lambda, which cannot use names of structured bindings.
+// lines. The check is outside the lambda, which cannot use names of structured bindings.
 
 #define EXPECT_WARP_LAWS(warp, ...)                                                                                    \
   switch (constexpr bool mc_fits = ::mc::detail::is_distribution<decltype(warp)>; 0)                                   \

@@ -1,5 +1,5 @@
 #pragma once
-/// Any scattering function, its types erased: what the laws of BSDFs run over.
+/// Type-erased scattering functions, the input of the BSDF laws.
 
 #include <mc/check/subject/point_array.h>
 #include <mc/check/subject/timing.h>
@@ -13,54 +13,65 @@
 
 namespace mc {
 
-/// What is known of a BSDF beforehand.
+/// Properties of a BSDF, and options of check_bsdf; see SubjectOptions.
 struct BsdfOptions {
-  std::string name = "bsdf";
-  std::uint64_t samples = 1'000'000;
-  std::uint64_t seed = 1;
-  double alpha = 0.001;
-  bool reciprocal = true;       ///< f(wo, wi) = f(wi, wo); with eta, f(wo, wi) / eta_i^2 symmetric across the surface
-  double eta = 1;               ///< index of the inside (z < 0) over that of the outside
-  bool cosine = true;           ///< eval leaves the cosine out; false where it holds it, and for phase functions
-  bool lossless = false;        ///< nothing is absorbed: the white furnace value is 1, not only at most 1
-  double tolerance = 1e-3;      ///< relative, of f and pdf as sample, eval and pdf state them, and of reciprocity
-  double mass_tolerance = 1e-5; ///< rounding error of the density's integral
-  std::size_t max_evaluations = 12'000'000;
-  bool evidence = false;                               ///< see SubjectOptions
-  bool open_interval = false;                          ///< u in (0,1): no random number is exactly 0
-  const std::function<void()>* before_draws = nullptr; ///< called again and again; what it throws ends the check
+  std::string name = "bsdf";         ///< name in the report
+  std::uint64_t samples = 1'000'000; ///< number of counted samples
+  std::uint64_t seed = 1;            ///< seed of all random numbers
+  double alpha = 0.001;              ///< family-wise level of the statistical tests
+  bool reciprocal = true;  ///< f(wo, wi) = f(wi, wo); across the surface f(wo, wi) / eta_o^2 = f(wi, wo) / eta_i^2
+  double eta = 1;          ///< refractive index of the inside (z < 0) divided by that outside
+  bool cosine = true;      ///< eval leaves the cosine out; false if it includes the cosine, and for phase functions
+  bool lossless = false;   ///< nothing is absorbed: the white furnace albedo is 1, instead of at most 1
+  double tolerance = 1e-3; ///< relative error of reciprocity, and of stated f, weight and pdf against eval and pdf
+  double mass_tolerance = 1e-5;             ///< rounding error of the density's integral
+  std::size_t max_evaluations = 12'000'000; ///< largest number of evaluations of the density
+  bool evidence = false;                    ///< keep all counts and intermediate p-values
+  bool open_interval = false;               ///< u in (0,1): no random number is exactly 0
+  /// Called before each batch of draws; an exception that it throws ends the check.
+  const std::function<void()>* before_draws = nullptr;
 };
 
-/// Values of f, a channel each.
+/// Values of f, one per channel.
 struct Channels {
-  static constexpr int max_count = 8;
-  int count = 0;
-  std::array<double, max_count> value; ///< the first `count` mean something
+  static constexpr int max_count = 8;  ///< largest number of channels
+  int count = 0;                       ///< number of channels
+  std::array<double, max_count> value; ///< only the first `count` entries are defined
 
-  /// Of channel c; the last one repeats.
+  /// Returns the value of channel c; the last channel repeats for larger c.
   double operator[](int c) const { return value[static_cast<std::size_t>(std::min(c, count - 1))]; }
 };
 
-/// A BSDF or phase function in double, whatever it computes in.
+/// A BSDF or phase function as functions of double, for any scalar type of the original.
 struct AnyBsdf {
+  /// A unit vector; +z is the normal.
   using Direction = Vec3<double>;
+  /// A sampled direction.
   struct Sample {
-    Direction wi;
-    double pdf = 0;
-    bool delta = false, transmission = false;
-    Channels f, weight; ///< what the sample states; no channels where it does not
+    Direction wi;                             ///< the sampled direction
+    double pdf = 0;                           ///< stated density [1/steradian], or probability of the delta lobe
+    bool delta = false, transmission = false; ///< delta lobe; wi and wo on opposite sides
+    Channels f, weight;                       ///< the stated values; count = 0 if the sample states none
   };
 
-  bool is_float = false;
-  bool open_interval = false; ///< sample wants numbers in (0,1), none of them 0
+  bool is_float = false;      ///< the original computes in float
+  bool open_interval = false; ///< sample requires random numbers in (0,1), without 0
+  /// Samples wi for wo; uc selects the lobe. Returns no value if the light is absorbed.
   std::function<std::optional<Sample>(const Direction& wo, double uc, const Vec2<double>& u)> sample;
+  /// Returns f(wo, wi).
   std::function<Channels(const Direction& wo, const Direction& wi)> eval;
+  /// Returns the density of wi for wo [1/steradian].
   std::function<double(const Direction& wo, const Direction& wi)> pdf;
+  /// Measures the time of one sample [ns].
   std::function<double(const Direction& wo)> ns_per_sample;
 
+  /// Samples wi with the next three numbers of `random`, in the precision of the BSDF's scalar.
   std::optional<Sample> sample_next(const Direction& wo, Pcg& random) const;
+  /// Returns the machine epsilon of the BSDF's scalar.
   double epsilon() const;
+  /// Returns "(0.6, 0, 0.8)" with all digits of the BSDF's scalar.
   std::string format(const Direction& w) const;
+  /// Returns the channels with all digits of the BSDF's scalar.
   std::string format(const Channels& f) const;
 };
 
@@ -77,9 +88,10 @@ template <class B, class S> constexpr bool has_direction_pdf = requires(const B 
 };
 } // namespace detail
 
-/// What check_bsdf asks of a BSDF over scalar S: sample(wo, uc, u) or sample(wo, u), eval(wo, wi) and pdf(wo, wi).
+/// A type with sample(wo, uc, u) or sample(wo, u), over scalar S.
 template <class B, class S>
 concept SamplesDirections = detail::samples_directions<B, S>;
+/// A BSDF type over scalar S: samples directions, and has eval(wo, wi) and pdf(wo, wi).
 template <class B, class S>
 concept BsdfOver = detail::samples_directions<B, S> && detail::has_eval<B, S> && detail::has_direction_pdf<B, S>;
 
@@ -110,10 +122,10 @@ template <Real S, class Bsdf> double ns_per_scatter(const Bsdf& bsdf, const Vec3
 
 } // namespace detail
 
-/// The BSDF is any object with
+/// Erases the type of a BSDF, any object with
 ///   sample(wo, uc, u) or sample(wo, u) -> optional of {wi, pdf, f or weight, perhaps delta and transmission}
 ///   eval(wo, wi) -> f,  pdf(wo, wi)
-/// where weight = f |cos| / pdf. Without eval and pdf it can only be sampled.
+/// where weight = f |cos| / pdf. The result lacks eval and pdf if the BSDF lacks them.
 template <Real S, SamplesDirections<S> Bsdf> AnyBsdf any_bsdf(const Bsdf& given) {
   const auto bsdf = std::make_shared<const Bsdf>(given);
   AnyBsdf any;

@@ -1,5 +1,5 @@
 #pragma once
-/// How the coordinates of a chart read on its domain, for reports and maps.
+/// Meaning of chart coordinates, for reports and maps.
 
 #include <algorithm>
 #include <cmath>
@@ -10,21 +10,24 @@
 
 namespace mc {
 
-/// One chart coordinate v in [0,1] and the quantity of the domain that it stands for, a monotone function of v alone:
-///   linear    : a (1 - v) + b v
-///   radius    : sqrt(a^2 + (b^2 - a^2) v)
-///   ball_radius : b cbrt(v)
-///   half_line : a + b v / (1 - v)
-///   real_line : a + b w / (1 - w^2) * 2, w = 2 v - 1
-///   polar     : the angle from the pole [deg] whose 1 - cos is b v
-///   azimuth   : 360 v [deg], and 360 meets 0
+/// A chart coordinate v in [0,1] and the quantity of the domain that it represents, a monotone function of v alone:
+///   linear      : a (1 - v) + b v.
+///   radius      : sqrt(a^2 + (b^2 - a^2) v).
+///   ball_radius : b cbrt(v).
+///   half_line   : a + b v / (1 - v).
+///   real_line   : a + 2 b w / (1 - w^2), w = 2 v - 1.
+///   polar       : the angle theta from the pole [deg], with 1 - cos theta = b v.
+///   azimuth     : 360 v [deg], periodic.
 struct Axis {
+  /// The function from v to the quantity.
   enum class Scale { linear, radius, ball_radius, half_line, real_line, polar, azimuth };
 
+  /// Name of the quantity.
   std::string name = "v";
-  Scale scale = Scale::linear;
-  double a = 0, b = 1;
+  Scale scale = Scale::linear; ///< the function
+  double a = 0, b = 1;         ///< its parameters
 
+  /// Returns the quantity at v.
   double value(double v) const {
     switch (scale) {
     case Scale::linear: return a * (1 - v) + b * v;
@@ -37,14 +40,16 @@ struct Axis {
     }
     return v;
   }
+  /// Returns "deg" for angles, else an empty string.
   std::string_view unit() const { return scale == Scale::polar || scale == Scale::azimuth ? "deg" : ""; }
 };
 
-/// The name of an axis; "v0" and so on where it has none.
+/// Returns the name of an axis; "v0", "v1", ... for axes without a name.
 inline std::string axis_name(const std::vector<Axis>& axes, std::size_t axis) {
   return axis < axes.size() ? axes[axis].name : "v" + std::to_string(axis);
 }
 
+/// Returns the enumerator as text.
 constexpr std::string_view name(Axis::Scale s) {
   switch (s) {
   case Axis::Scale::linear: return "linear";

@@ -1,5 +1,5 @@
 #pragma once
-/// The axes of every domain's chart.
+/// The axes of the charts of all domains.
 
 #include <mc/check/subject/axis.h>
 #include <mc/domain/annulus.h>
@@ -20,13 +20,13 @@
 
 namespace mc {
 
-/// Axes of directions about a pole, out to where 1 - cos is h.
+/// Axes of directions about a pole, with 1 - cos theta in [0, h].
 inline std::vector<Axis> polar_axes(double h) {
   return {{"theta", Axis::Scale::polar, 0, h}, {"phi", Axis::Scale::azimuth, 0, 1}};
 }
 
-/// What the chart coordinates of a domain stand for; the coordinates themselves, named v0, v1, ..., where no single one
-/// has a meaning (patches, domains unknown here).
+/// Returns the meaning of each chart coordinate of a domain. Domains without an overload, for example patches, have
+/// axes v0, v1, ... without a meaning.
 template <Domain D> std::vector<Axis> chart_axes(const D&) {
   std::vector<Axis> axes(std::size_t{D::dim});
   for (std::size_t i = 0; i < axes.size(); ++i) axes[i].name = D::dim == 1 ? std::string("v") : fmt::format("v{}", i);

@@ -1,5 +1,5 @@
 #pragma once
-/// Warps, discrete distributions and functions as samplers without types.
+/// Adapters from warps, discrete distributions and functions to AnyDistribution.
 
 #include <mc/check/subject/any_distribution.h>
 #include <mc/check/subject/chart_axes.h>
@@ -14,8 +14,8 @@
 
 namespace mc {
 
-/// What the checkers ask of a sampler: a Warp without its change of scalar. sample may return an optional, empty where
-/// it fails.
+/// A type with domain(), sample(u) and pdf(x). In contrast to a Warp it needs no cast to other scalars. sample may
+/// return an optional, empty if it fails.
 template <class W>
 concept ContinuousDistribution = Domain<typename W::Domain> &&
     requires(const W w, typename W::Domain::Point x, typename W::Domain::UnitPoint u) {
@@ -36,11 +36,12 @@ template <class W> constexpr bool has_pdf = requires(const W w, typename W::Doma
 };
 } // namespace detail
 
-/// A sampler that is its own oracle, and one with an inverse.
+/// A distribution that can be cast to 50 digits and serves as its own oracle.
 template <class W>
 concept HasOracle = ContinuousDistribution<W> && requires(const W w) {
   w.template cast<Oracle>();
 };
+/// A distribution with invert(x) -> u.
 template <class W>
 concept Invertible = ContinuousDistribution<W> && requires(const W w, typename W::Domain::Point x) {
   { w.invert(x) } -> std::convertible_to<typename W::Domain::UnitPoint>;
@@ -50,7 +51,7 @@ namespace detail {
 
 template <class T> struct Unwrapped { using type = T; };
 template <class T> struct Unwrapped<std::optional<T>> { using type = T; };
-/// Whether a sampler's result is optional, and what it holds.
+/// Whether a result of sample is optional, and the type that it contains.
 template <class R>
 constexpr bool may_be_empty = !std::same_as<typename Unwrapped<std::remove_cvref_t<R>>::type, std::remove_cvref_t<R>>;
 template <class R> const auto& unwrapped(const R& r) {
@@ -62,7 +63,7 @@ template <class R> bool is_empty(const R& r) {
   else return false;
 }
 
-/// The largest |a / b - 1| over the channels, 0 where both are 0.
+/// Returns the largest |a / b - 1| over the channels; 0 for a channel where a = b.
 template <class F> double relative_difference(const F& a, const F& b) {
   double worst = 0;
   for (int i = 0; i < components(a); ++i) {
@@ -74,7 +75,7 @@ template <class F> double relative_difference(const F& a, const F& b) {
   return worst;
 }
 
-/// Sets `function` to f(*held, arguments), f a lambda that captures nothing.
+/// Sets `function` to f(*held, arguments) for a lambda f without captures.
 template <class R, class... Args, class T, class F>
 void set_shared(std::function<R(Args...)>& function, const std::shared_ptr<const T>& held, F) {
   function = SharedCall<R(Args...)>{held, [](const void* t, Args... args) -> R {
@@ -100,8 +101,8 @@ template <DiscreteDistribution D> double ns_per_outcome(const D& distribution) {
   return mc::ns_per_sample(inputs, [&](S u) { return static_cast<double>(distribution.sample_index(u).index); });
 }
 
-/// A chart over double as functions of numbers; a domain over float and one over double share it. What makes a sampler
-/// runs once: [[gnu::cold]] has it compiled for size, in a tenth less time.
+/// Returns a chart over double as functions of numbers; domains over float and double share it. The functions that
+/// build a distribution run once, so [[gnu::cold]] has them compiled for size, which shortens the compilation.
 template <Domain Chart> [[gnu::cold]] AnyDomain domain_of(const Chart& chart) {
   using Point = typename Chart::Point;
   using UnitPoint = typename Chart::UnitPoint;
@@ -122,7 +123,7 @@ template <Domain Chart> [[gnu::cold]] AnyDomain domain_of(const Chart& chart) {
   return d;
 }
 
-/// A sampler of the domain that draws nothing yet.
+/// Returns a distribution on the domain without sample and pdf.
 template <Domain D> [[gnu::cold]] AnyDistribution distribution_on(std::string name, const D& domain) {
   AnyDistribution s;
   s.name = std::move(name);
@@ -133,13 +134,13 @@ template <Domain D> [[gnu::cold]] AnyDistribution distribution_on(std::string na
   return s;
 }
 
-/// A warp with its domain, which need not be made for each point anew.
+/// A warp with its domain, cached so that it is not rebuilt for each point.
 template <class W> struct WarpOnDomain {
   W warp;
   typename W::Domain domain;
 };
 
-/// A warp over 50 digits, compiled once for its float and its double form.
+/// Returns a warp over 50 digits as an oracle. It is compiled once for the float and the double form of the warp.
 template <ContinuousDistribution O> [[gnu::cold]] OracleDistribution oracle_distribution(const O& warp) {
   using Point = PointOf<O>;
   using UnitPoint = UnitPointOf<O>;
@@ -161,7 +162,7 @@ template <ContinuousDistribution O> [[gnu::cold]] OracleDistribution oracle_dist
   return e;
 }
 
-/// The channel of a weight that differs most from f / pdf.
+/// Returns the channel of a weight that differs most from f / pdf.
 template <class Value> AnyDistribution::Stated stated_weight(const Value& weight, const Value& f, double pdf) {
   AnyDistribution::Stated stated;
   double worst = -1;
@@ -176,7 +177,8 @@ template <class Value> AnyDistribution::Stated stated_weight(const Value& weight
   return stated;
 }
 
-/// Turns what a sampler returns into AnyDistribution::Sample: a point, or a struct of x, weight and perhaps pdf.
+/// Converts a result of sample to AnyDistribution::Sample. The result is a point, or a struct of x, weight and perhaps
+/// pdf.
 template <Domain D, class Held, class Pdf, class F>
 AnyDistribution::Sample make_sample(const Held& held, const D& domain, const Pdf& pdf, const F& f) {
   AnyDistribution::Sample d;
@@ -202,7 +204,7 @@ AnyDistribution::Sample make_sample(const Held& held, const D& domain, const Pdf
   return d;
 }
 
-/// What a sampler on a domain is made of; see make_distribution.
+/// The functions that make_distribution combines.
 template <Domain D, class Draw, class Pdf, class F> struct DistributionFunctions {
   using Chart = decltype(std::declval<const D&>().template cast<double>());
   D domain;
@@ -218,7 +220,7 @@ template <Domain D, class Draw, class Pdf, class F> struct DistributionFunctions
     if (is_empty(result)) return {};
     return make_sample(unwrapped(result), domain, pdf, f);
   }
-  /// What to_chart() makes of a point.
+  /// Returns the draw of to_chart() for a point.
   template <class Result> Subject::Draw to_draw(const Result& result) const {
     using Kind = Subject::Draw::Kind;
     Subject::Draw d;
@@ -242,11 +244,11 @@ template <Domain D, class Draw, class Pdf, class F> struct DistributionFunctions
 
 } // namespace detail
 
-/// A sampler on a domain, its claimed density and perhaps the f it is for.
-///   sample  : takes u, a point of the unit cube of the domain's dimension, or mc::Pcg& to draw from as it likes.
-///             Returns a point x; or a struct of x, weight and perhaps pdf, whose weight must be f / pdf (a light's
-///             radiance over its density, say); or an optional of either, empty where it fails
-///   pdf, f  : functions of x; f may return several channels as an Eigen array
+/// Returns a distribution on a domain from functions.
+///   sample : takes u, a point of the unit cube with the domain's dimension, or mc::Pcg& to draw any number of random
+///            numbers. Returns a point x; or a struct of x, weight and perhaps pdf; or an optional of either, empty if
+///            it fails. The weight must be f / pdf, for example radiance over density for a light.
+///   pdf, f : functions of x; f may return several channels as an Eigen array.
 template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
 [[gnu::cold]] AnyDistribution make_distribution(std::string name, const D& domain, Draw draw, Pdf pdf, F f = nullptr) {
   constexpr bool streams = std::invocable<const Draw&, Pcg&>;
@@ -271,7 +273,7 @@ template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
       detail::set_shared(
           s.draw_many, shared,
           [](const Functions& g, std::span<const AnyDistribution::Uniforms> u, std::span<Subject::Draw> draws) {
-            // One step after the other over all of them: processors overlap short loops better than long ones.
+            // One step for all points at a time: processors overlap short loops better than long loops.
             std::vector<std::invoke_result_t<const Draw&, typename D::UnitPoint>> results;
             results.reserve(u.size());
             for (const AnyDistribution::Uniforms& one : u)
@@ -285,8 +287,8 @@ template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
   return s;
 }
 
-/// A warp, or any struct with domain, sample and pdf, with its inverse and its oracle where it has them. A warp whose
-/// density jumps names the places: breaks()[axis], ascending chart coordinates.
+/// Returns a warp, or any struct with domain, sample and pdf, as an AnyDistribution. The result includes invert, oracle
+/// and breaks if the warp has them. breaks()[axis] lists the chart coordinates where the density jumps, ascending.
 template <ContinuousDistribution W> [[gnu::cold]] AnyDistribution make_distribution(std::string name, const W& warp) {
   const auto shared = std::make_shared<const W>(warp);
   AnyDistribution s = make_distribution(
@@ -308,8 +310,8 @@ template <ContinuousDistribution W> [[gnu::cold]] AnyDistribution make_distribut
   return s;
 }
 
-/// A discrete distribution: its outcomes are atoms, its weight the ratio of stated and tabulated probability. An
-/// u_remapped outside [0,1) counts as not finite.
+/// Returns a discrete distribution. Its outcomes are atoms. Its weight is the ratio of stated and tabulated
+/// probability. A u_remapped outside [0,1) counts as not finite.
 template <DiscreteDistribution D> AnyDistribution make_discrete_distribution(std::string name, const D& distribution) {
   using S = typename D::Scalar;
   AnyDistribution s;

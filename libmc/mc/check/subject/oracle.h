@@ -1,5 +1,5 @@
 #pragma once
-/// The 50-digit scalar over which every warp is its own high-precision oracle.
+/// The 50-digit scalar for which every warp serves as its own high-precision oracle.
 
 #include <mc/core/types.h>
 
@@ -9,21 +9,27 @@
 
 namespace mc {
 
-/// A number of 168 binary digits, rounded to nearest, with the functions that a warp calls. Its arithmetic is MPFR's,
-/// correctly rounded, and called in oracle.cpp alone: what is instantiated over Oracle compiles as fast as over double.
+/// A number of 168 binary digits with the functions that warps call. MPFR does the arithmetic, correctly rounded to
+/// nearest. Only oracle.cpp includes MPFR, so that templates compile as fast for Oracle as for double.
 class Oracle {
  public:
   Oracle() = default; ///< 0
+  /// Exact conversion from float and double.
   template <std::floating_point T> Oracle(T x) : Oracle(from(static_cast<double>(x))) {
     static_assert(sizeof(T) <= sizeof(double));
   }
+  /// Conversion from integers.
   template <std::signed_integral T> Oracle(T i) : Oracle(from_signed(i)) {}
+  /// Conversion from integers.
   template <std::unsigned_integral T> Oracle(T i) : Oracle(from_unsigned(i)) {}
+  /// Parses a decimal number; throws Error for other text.
   explicit Oracle(const char* decimal);
 
+  /// Rounds to the nearest double.
   explicit operator double() const;
-  explicit operator float() const;                                                               ///< rounded once
-  template <std::integral T> explicit operator T() const { return static_cast<T>(truncated()); } ///< towards 0
+  /// rounds once, to the nearest float
+  explicit operator float() const;
+  template <std::integral T> explicit operator T() const { return static_cast<T>(truncated()); } ///< rounds towards 0
 
   Oracle operator-() const;
   Oracle operator+() const { return *this; }
@@ -37,7 +43,8 @@ class Oracle {
   friend Oracle operator/(const Oracle& a, const Oracle& b);
   friend bool operator==(const Oracle& a, const Oracle& b);
   friend std::partial_ordering operator<=>(const Oracle& a, const Oracle& b);
-  friend std::ostream& operator<<(std::ostream& out, const Oracle& x); ///< all digits that the stream asks for
+  /// writes with the format and the precision of the stream
+  friend std::ostream& operator<<(std::ostream& out, const Oracle& x);
 
  private:
   friend class OracleView;
@@ -46,7 +53,7 @@ class Oracle {
   static Oracle from_signed(long long i);
   static Oracle from_unsigned(unsigned long long i);
 
-  // As MPFR says it: +-3 is a number, significand * 2^exponent, +-2 is 0, +-1 is infinity, 0 is NaN.
+  // Representation of MPFR by kind: +-3 is the number significand * 2^exponent; +-2 is 0; +-1 is infinity; 0 is NaN.
   std::array<std::uint64_t, 3> significand_{};
   std::int64_t exponent_ = 0;
   int kind_ = 2;

@@ -1,5 +1,5 @@
 #pragma once
-/// Points of any type as arrays of doubles, and as text.
+/// Points of any type as arrays of doubles and as text.
 
 #include <mc/core/types.h>
 
@@ -11,10 +11,11 @@
 
 namespace mc {
 
-/// The numbers of a point; unused entries are 0. Doubles hold floats exactly. A direction and a number take four.
+/// The coordinates of a point; unused entries are 0. Doubles represent floats exactly. Four entries hold a direction
+/// and a number.
 using PointArray = std::array<double, 4>;
 
-/// "0.25" or "(0.25, 0.5)", each number with so many digits.
+/// Returns "0.25" or "(0.25, 0.5)", each number with the given number of digits.
 inline std::string format_numbers(std::span<const double> numbers, int digits) {
   std::string text;
   for (const double x : numbers) text += fmt::format("{}{:.{}g}", text.empty() ? "" : ", ", x, digits);
@@ -33,13 +34,13 @@ template <class P> int components(const P& x) {
   else return 1;
 }
 
-/// How many numbers a point of a domain has.
+/// Number of coordinates of a point type.
 template <class P> constexpr int point_size() {
   if constexpr (requires { P::SizeAtCompileTime; }) return P::SizeAtCompileTime;
   else return 1;
 }
 
-/// The numbers of a point over S as T; a plain scalar is the first.
+/// Returns the coordinates of a point converted to T; a scalar becomes the first entry.
 template <class T, std::size_t N = std::tuple_size_v<PointArray>, class P> std::array<T, N> to_array(const P& x) {
   static_assert(point_size<P>() <= static_cast<int>(N));
   std::array<T, N> a{};
@@ -49,7 +50,7 @@ template <class T, std::size_t N = std::tuple_size_v<PointArray>, class P> std::
   return a;
 }
 
-/// The point of type P with these numbers, rounded to its scalar.
+/// Returns the point of type P with the given coordinates, rounded to its scalar.
 template <class P, class Array> P to_point(const Array& a) {
   if constexpr (point_size<P>() == 1) return static_cast<P>(a[0]);
   else {
@@ -65,7 +66,7 @@ template <class P> bool all_finite(const P& x) {
   return true;
 }
 
-/// "(0.25, 0.5)" with as many digits as tell the point from its neighbours.
+/// Returns "(0.25, 0.5)" with enough digits to identify the point.
 template <class P> std::string format_point(const P& x) {
   if constexpr (requires { x.size(); }) {
     const auto wide = x.template cast<double>().eval();

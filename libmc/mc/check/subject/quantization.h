@@ -1,5 +1,5 @@
 #pragma once
-/// Rounding to float, or to coarser steps, as the cause of what the tests found.
+/// Recognises rounding to float, or to coarser steps, as the cause of a failed test.
 
 #include <mc/check/subject/any_distribution.h>
 
@@ -7,16 +7,18 @@
 
 namespace mc {
 
-/// What comes in steps of a float although the sampler says otherwise, and what to do about it; or in steps of a power
-/// of two that are coarser than those of its largest float: one clause for a report, empty where nothing does. Looked
-/// at are 1000 samples:
-///   cos theta near the pole, whose steps of 2^-24 are wide beside a narrow lobe, over float and over double
-///   coordinates, radii and angles; those of a sampler over float for coarser steps alone
+/// Returns a clause for the report that names a coordinate with coarse steps and suggests a remedy. The clause is empty
+/// if no coordinate has them. The function inspects 1000 samples for:
+///   pole        : cos theta near the pole in steps of 2^-24, which are wide compared with a narrow lobe; over float
+///                 and double.
+///   coordinates : coordinates, radii and angles that are floats although the distribution claims double, or that are
+///                 multiples of a power of two coarser than the spacing of floats at their largest value. For
+///                 distributions over float, only coarser steps.
 std::string describe_quantization(const AnyDistribution& distribution, std::uint64_t seed);
 
-/// What to do about a point outside the domain of a sampler over double, ", as far off as float rounds: ...": where it
-/// is at most four epsilons of a float off and one of its numbers is a float with more than half of its digits in use,
-/// as hardly a double is. Empty for any other point.
+/// Returns ", off by the rounding error of float: ..." for a point just outside the domain of a distribution over
+/// double. Both conditions must hold: the point is at most four float epsilons outside, and one of its coordinates is a
+/// float with more than half of its digits in use, which a double rarely is. Returns an empty string for other points.
 std::string describe_float_rounding(const AnyDistribution& distribution, const PointArray& x);
 
 } // namespace mc

@@ -1,5 +1,5 @@
 #pragma once
-/// Anything that draws points with a claimed density, reduced to what the statistical tests need.
+/// Anything that draws points with a claimed density, reduced to the needs of the statistical tests.
 
 #include <mc/check/subject/axis.h>
 #include <mc/domain/concept.h>
@@ -13,60 +13,65 @@
 
 namespace mc {
 
-/// A sampler with its claimed density, seen through the chart of its domain: the tests live on the unit cube and never
-/// ask what the domain was. Warps, pairs of lambdas, BSDFs, tables, plugins and files of samples all become Subjects;
-/// see make_subject.h for the first two.
+/// A distribution with its claimed density, in chart coordinates: the tests use the unit cube and are independent of
+/// the domain. Warps, pairs of functions, BSDFs, tables, plugins and files of samples are all converted to Subjects;
+/// see make_subject.h.
 struct Subject {
-  using Coordinates = std::array<double, 3>; ///< of the unit cube; unused entries are 0
+  using Coordinates = std::array<double, 3>; ///< A point of the unit cube; unused entries are 0.
 
-  std::string name;
-  int dim = 0;            ///< 0: discrete outcomes only
-  std::vector<Axis> axes; ///< what the coordinates stand for; may be empty
+  std::string name;       ///< name in the report
+  int dim = 0;            ///< dimension of the chart; 0: only discrete outcomes
+  std::vector<Axis> axes; ///< meaning of the coordinates; may be empty
 
-  /// One draw, or why there is none.
-  ///   failed     : the sampler returned nothing, which counts against 1 - mass and is an error unless may_fail
-  ///   outside    : a finite point that is not in the domain, say a direction that is not unit
-  ///   not_finite : a NaN or an infinity
+  /// One draw, or the reason for its absence.
+  ///   failed     : sample returned no value. The rate of failures is tested against 1 - mass; any failure is an error
+  ///                unless may_fail is set.
+  ///   outside    : a finite point outside the domain, for example a direction that is not a unit vector.
+  ///   not_finite : a coordinate is NaN or infinite.
   struct Draw {
+    /// Kind of a draw.
     enum class Kind : std::uint8_t { point, atom, failed, outside, not_finite } kind = Kind::point;
     bool pdf_positive = true; ///< the claimed density at the drawn point is positive and finite
     int atom = -1;            ///< index of a discrete outcome (delta lobe, table index)
-    Coordinates v{};
-    double weight = 1;   ///< claimed weight * pdf / f where the sampler states a weight; 1 when they agree
-    double density = -1; ///< Subject::density at v where the draw knows it, else negative
+    Coordinates v{};          ///< chart coordinates
+    double weight = 1;        ///< stated weight * pdf / f if a weight is stated; 1 when they agree
+    double density = -1;      ///< Subject::density at v if the draw already contains it, else negative
   };
-  /// Appends n draws of the stream `seed` to `out`. Same seed, same draws.
+  /// Appends n draws of the stream `seed` to `out`. Equal seeds give equal draws.
   std::function<void(std::uint64_t seed, std::size_t n, std::vector<Draw>& out)> draw;
 
-  /// Claimed density in chart coordinates, pdf(from_unit(v)) * jacobian(v): integrates to 1 - P(atom) - P(failure).
+  /// Returns the claimed density in chart coordinates, pdf(from_unit(v)) * jacobian(v). It integrates to 1 - P(atom) -
+  /// P(failure).
   std::function<double(const Coordinates& v)> density;
-  /// The same at many points, for a subject that answers many at once faster than one by one; may be empty.
+  /// Returns the densities at many points, for subjects that are faster in batches; may be empty.
   std::function<void(std::span<const Coordinates> v, std::span<double> densities)> densities;
 
-  /// Chart coordinates, ascending, where the density may jump along each axis, as between the bins of a table: between
-  /// them its integral is found from few points, and exactly where it is constant. May be empty.
+  /// Chart coordinates, ascending, where the density may jump along each axis, as between the bins of a table.
+  /// Quadrature between them needs few points, and is exact for a constant density. May be empty.
   std::array<std::vector<double>, 3> breaks;
 
   /// Claimed probabilities of the discrete outcomes; empty for a continuous subject.
   std::vector<double> atoms;
-  bool may_fail = false;
+  bool may_fail = false; ///< sample may fail, with probability 1 - mass
 
-  double mass_tolerance = 1e-12;  ///< rounding error of the claimed density, relative
-  double weight_tolerance = 1e-4; ///< largest |weight - 1|, beyond what the density changes as the point is rounded
+  double mass_tolerance = 1e-12;  ///< relative rounding error of the claimed density
+  double weight_tolerance = 1e-4; ///< largest |weight - 1|, beyond the change of the density when the point is rounded
 
-  /// The points of the unit cube that n draws of the stream `seed` come from, as the sampler's own inverse says of each
-  /// that gives a point of the domain, NaN where it finds none; may be empty.
+  /// Returns the images of n draws of the stream `seed` under the subject's own inverse. Draws outside the domain are
+  /// left out; a failed inverse gives NaN. May be empty.
   std::function<std::vector<Coordinates>(std::uint64_t seed, std::size_t n)> inverted;
-  double invert_error = 0; ///< bound on the error of its coordinates
+  double invert_error = 0; ///< bound on the error of the inverted coordinates
 
-  double epsilon = 2.220446049250313e-16; ///< of the scalar that the points are computed in
-  /// How far one unit in the last place of the point at v moves chart coordinate `axis`; empty: epsilon times v.
+  double epsilon = 2.220446049250313e-16; ///< machine epsilon of the scalar of the points
+  /// Returns the change of chart coordinate `axis` when the point at v changes by one unit in the last place. If empty,
+  /// the change is epsilon * v.
   std::function<double(const Coordinates& v, int axis)> resolution;
-  /// The numbers behind draw `index` of stream `seed` in full precision; may be empty.
+  /// Describes draw `index` of stream `seed` with all digits, including u; may be empty.
   std::function<std::string(std::uint64_t seed, std::uint64_t index)> describe_draw;
-  /// "weight is 0.6, should be 0.5" for draw `index` of stream `seed`, and the likely reason after "; "; may be empty.
+  /// Returns "weight is 0.6, should be 0.5" for draw `index` of stream `seed`, and the likely reason after "; "; may be
+  /// empty.
   std::function<std::string(std::uint64_t seed, std::uint64_t index)> describe_weight;
-  /// The point of the domain at chart coordinates v; may be empty.
+  /// Formats the point of the domain at chart coordinates v; may be empty.
   std::function<std::string(const Coordinates& v)> describe_point;
 };
 

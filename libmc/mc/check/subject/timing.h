@@ -1,5 +1,5 @@
 #pragma once
-/// What one sample costs.
+/// Time of one sample.
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,8 @@
 
 namespace mc {
 
-/// Time of one sample(input) -> number [ns]: the best of eight rounds over the inputs, so that a busy machine does not
-/// show.
+/// Returns the time of one sample(input) -> number [ns]: the minimum over eight rounds through all inputs, which
+/// excludes interruptions by other processes.
 template <class Input, class Sample> double ns_per_sample(const std::vector<Input>& inputs, Sample sample) {
   double best = HUGE_VAL, sum = 0;
   for (int round = 0; round < 8; ++round) {
@@ -23,7 +23,7 @@ template <class Input, class Sample> double ns_per_sample(const std::vector<Inpu
   return best;
 }
 
-/// Inputs enough to time, few enough to stay in the first cache.
+/// Number of inputs: enough for the clock, few enough for the first-level cache.
 constexpr int timing_inputs = 1 << 12;
 
 } // namespace mc
