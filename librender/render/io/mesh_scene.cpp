@@ -9,9 +9,9 @@ namespace render {
 
 namespace {
 
-constexpr double fov = 35;       // degrees, along the smaller side of the film
-constexpr double largest = 1e30; // the ground below it, fifty times as large, is far from what a float holds
-constexpr double margin = 0.95;  // share of the picture, from its middle, that the mesh fills at most
+constexpr double fov = 35;       // degrees, along the shorter side of the image
+constexpr double largest = 1e30; // the ground is fifty times as large and must stay far below the largest float
+constexpr double margin = 0.95;  // largest extent of the mesh, as a fraction of the image
 
 MeshFile read_mesh(const std::string& path) {
   const std::string extension = mc::lowercase_extension(path);
@@ -20,7 +20,7 @@ MeshFile read_mesh(const std::string& path) {
   return read_serialized(path, 0);
 }
 
-// The corners of a box about all triangles.
+// Bounding box of all triangles.
 struct Extent {
   Vec3d lo = Vec3d::Constant(mc::infinity<double>), hi = -lo;
 };
@@ -35,7 +35,7 @@ Extent extent_of(const MeshFile& mesh) {
   return extent;
 }
 
-// Far enough away that every corner is inside the picture, however far it lies before or behind the middle.
+// Camera at the smallest distance from which all vertices project into the image.
 ThinLens camera_for(const MeshFile& mesh, const Vec3d& middle, double size) {
   const Vec3d forward = Vec3d(-0.5, -0.35, -1).normalized();
   const Transform frame = Transform::look_at(-forward, Vec3d::Zero(), Vec3d::UnitY());
@@ -53,7 +53,8 @@ ThinLens camera_for(const MeshFile& mesh, const Vec3d& middle, double size) {
   return ThinLens(Transform::look_at(-distance * forward, Vec3d::Zero(), Vec3d::UnitY()), options);
 }
 
-// A square of the ground a thousandth of the mesh's size below it, so that a flat mesh does not lie in it.
+// A square of ground below the mesh, at a distance of a thousandth of its size, so that a flat mesh does not coincide
+// with it.
 Shape ground_below(const Extent& extent, double size) {
   const double y = (extent.lo.y() - extent.hi.y()) / 2 - 1e-3 * size, half = 50 * size;
   return TriangleMesh::rectangle(

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene of a mesh alone.
+/// A scene around a single mesh file.
 
 #include <render/io/types.h>
 
@@ -10,9 +10,10 @@ namespace render {
 /// Whether a path has the extension of a mesh: .obj, .ply or .serialized.
 bool is_mesh_file(const std::string& path);
 
-/// The mesh of a file (of .serialized its first), grey, on a grey ground under the sky of [Shirley16], y up. The camera
-/// looks at it from the front, from the right and from above, and sees all of it at any size of the picture.
-///   throws : what the readers of meshes throw; Error for a mesh without a triangle that has an area
+/// A scene with the mesh of a file (for .serialized its first mesh). The mesh is grey and stands on a grey ground under
+/// the sky of [Shirley16]; y is up. The camera looks at the mesh from the front, right and above. The whole mesh is
+/// visible at any aspect ratio.
+///   throws : the errors of the mesh readers; Error for a mesh without a triangle of positive area.
 SceneFile read_mesh_scene(const std::string& path);
 
 } // namespace render

@@ -10,7 +10,7 @@ namespace render {
 
 namespace {
 
-// A Gaussian whose width differs left and right of its centre.
+// An asymmetric Gaussian with different widths on the left and right of its centre.
 double lobe(double wavelength, double center, double left, double right) {
   const double t = (wavelength - center) * (wavelength < center ? left : right);
   return std::exp(-0.5 * t * t);
@@ -23,7 +23,7 @@ Vec3d matching_functions(double w) {
           1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
 }
 
-constexpr double cie_y_integral = 106.856895; // of the tabulated y-bar, per nm
+constexpr double cie_y_integral = 106.856895; // integral of the tabulated y-bar [nm]
 
 // Relative power of D65 at 400, 410, ..., 700 nm.
 constexpr std::array<double, 31> d65 = {82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861,
@@ -47,7 +47,7 @@ double value_at(const std::vector<SpectralSample>& s, double wavelength) {
   return wavelength == s.back().wavelength ? s.back().value : 0;
 }
 
-// With what is beyond the samples among them; 0 beyond that.
+// Adds the samples that represent the extrapolation. The spectrum is 0 beyond the result.
 std::vector<SpectralSample> extended(std::vector<SpectralSample> s, Extrapolation extrapolation) {
   const SpectralSample first = s.front(), last = s.back();
   if (extrapolation == Extrapolation::constant || s.size() == 1) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the readers of scenes give.
+/// Results of the scene readers.
 
 #include <render/film/image.h>
 #include <render/scene/scene.h>
@@ -10,20 +10,21 @@
 
 namespace render {
 
-/// How a scene file asks to be rendered.
+/// Render settings that a scene file contains.
 struct RenderDefaults {
-  int width = 256, height = 256;
-  int spp = 64;
-  int max_depth = -1; ///< longest path in edges; -1: no limit
-  Aov aov = Aov::radiance;
+  int width = 256, height = 256; ///< Size of the image [pixels].
+  int spp = 64;                  ///< Samples per pixel.
+  int max_depth = -1;            ///< Longest path in edges; -1: no limit.
+  Aov aov = Aov::radiance;       ///< Output of the integrator.
 };
 
+/// A scene as read from a file.
 struct SceneFile {
-  Scene scene;
-  RenderDefaults defaults;
-  Vec3d origin = Vec3d::Zero();           ///< the point of the file that is the origin of the scene
-  std::vector<std::string> warnings = {}; ///< "scene.xml:14: ...": where the picture is not what Mitsuba makes of it
-  std::set<std::string> files = {};       ///< that were read: the scene's own, what it includes, meshes, pictures
+  Scene scene;                            ///< The scene.
+  RenderDefaults defaults;                ///< Its render settings.
+  Vec3d origin = Vec3d::Zero();           ///< Point of the file that becomes the origin of the scene.
+  std::vector<std::string> warnings = {}; ///< "scene.xml:14: ...": differences from the image of Mitsuba.
+  std::set<std::string> files = {};       ///< All files read: the scene, included files, meshes, images.
 };
 
 } // namespace render

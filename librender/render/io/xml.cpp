@@ -48,7 +48,7 @@ int line_at(const std::string& text, std::ptrdiff_t offset) {
   return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
 }
 
-constexpr int deepest = 256; // far more than scenes nest, far fewer than a stack holds
+constexpr int deepest = 256; // far more than scenes need, far less than the stack allows
 
 XmlElement convert(const pugi::xml_node& node, const std::string& path, const std::string& text, int depth = 1) {
   XmlElement element;
@@ -74,7 +74,7 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
 XmlElement read_xml(const std::string& path) {
   const std::string text = mc::read_file(path);
   pugi::xml_document document;
-  // A fragment, since text and further elements beside the root are otherwise dropped without a word.
+  // Parses a fragment: otherwise pugixml silently drops text and further elements next to the root.
   const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
   mc::require(bool(result), "{}:{}: broken XML: {}", path, line_at(text, result.offset), result.description());
   const auto root = document.document_element();

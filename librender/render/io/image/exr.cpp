@@ -31,7 +31,7 @@ constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "v
 constexpr const char* estimates_key = "estimatesPerPixel";
 constexpr const char* noise_area_key = "noiseArea";
 
-// The channels of a file but for those of fewer pixels.
+// Names of the channels that are not subsampled.
 std::vector<std::string> whole_channels(const Imf::ChannelList& list) {
   std::vector<std::string> names;
   for (auto c = list.begin(); c != list.end(); ++c)
@@ -39,8 +39,9 @@ std::vector<std::string> whole_channels(const Imf::ChannelList& list) {
   return names;
 }
 
-// What a file of these many bytes may hold. Deflate packs 1032 bytes in one, and DWA leaves at least one of the 64
-// coefficients of a block to it; no other compression of the format packs 4096.
+// Throws Error for a size that a file of this length cannot hold. Deflate expands a byte to at most 1032 bytes. DWA
+// leaves at least one of the 64 coefficients of a block to deflate. No other compression of the format exceeds a factor
+// of 4096.
 void require_size(const Imf::Header& header, const std::string& path) {
   const auto& compression = header.compression();
   const bool is_dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
@@ -53,13 +54,13 @@ void require_size(const Imf::Header& header, const std::string& path) {
               "EXR says {}x{} in {} channels, which its {} bytes cannot hold", width, height, whole.size(), bytes);
 }
 
-// A cube's six sides would pass for one picture of all directions.
+// Rejects cube maps, which would otherwise be read as one latitude-longitude image.
 void require_no_cube(const Imf::Header& header) {
   mc::require(!Imf::hasEnvmap(header) || Imf::envmap(header) != Imf::ENVMAP_CUBE,
               "EXR says in its envmap that it holds the sides of a cube; convert it to latitude and longitude");
 }
 
-// Numbers of other colours than ours would pass for ours.
+// Rejects other colour spaces, which would otherwise be read as Rec. 709.
 void require_our_colours(const Imf::Header& header) {
   for (const char* channel : {"RY", "BY"})
     mc::require(!header.channels().findChannel(channel),
@@ -77,10 +78,10 @@ void require_our_colours(const Imf::Header& header) {
         is.x, is.y, must.x, must.y);
 }
 
-// One plane of floats per channel, as OpenEXR wants them.
+// One plane of floats per channel, in the layout of OpenEXR.
 struct Planes {
   std::vector<std::vector<float>> plane;
-  Imath::Box2i window; ///< of the pixels
+  Imath::Box2i window; ///< window of the pixels
   Planes(std::size_t count, const Imath::Box2i& pixels)
       : plane(count, std::vector<float>(static_cast<std::size_t>(pixels.max.x - pixels.min.x + 1) *
                                         static_cast<std::size_t>(pixels.max.y - pixels.min.y + 1))),

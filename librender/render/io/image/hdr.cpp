@@ -16,12 +16,12 @@ namespace render::formats {
 
 namespace {
 
-// Radiance's pictures [Ward91]: a header of lines, the size, then pixels of three mantissas and a common exponent, row
-// by row, each row plain, or with repeated pixels counted (the old way), or with repeated bytes of each component.
+// Radiance HDR [Ward91]: header lines, the size, then the pixels row by row. A pixel has three mantissas and a common
+// exponent. A row is plain, run-length encoded by pixels (the old way), or run-length encoded by components.
 
 using Rgbe = std::array<std::uint8_t, 4>;
 
-/// What is left of the file.
+/// The unread rest of the file.
 struct Rest {
   std::string_view bytes;
 
@@ -46,7 +46,7 @@ struct Rest {
   }
 };
 
-/// What the header says of the values: those of the file times `scale` are radiance.
+/// Colour space and scale of the header: file values times `scale` are radiance.
 struct Header {
   bool is_xyz = false;
   Eigen::Array3d scale = Eigen::Array3d::Ones();
@@ -62,7 +62,7 @@ Header header_of(Rest& rest) {
       mc::require(header.is_xyz || format == "32-bit_rle_rgbe",
                   "HDR header says '{}'; 32-bit_rle_rgbe or 32-bit_rle_xyze is needed", line);
     }
-    // Both were multiplied in, and may stand there again and again.
+    // Both factors were multiplied into the pixels, and may occur several times.
     Eigen::Array3d by = Eigen::Array3d::Ones();
     if (std::sscanf(line.c_str(), "EXPOSURE=%lf", &by[0]) == 1) by.setConstant(by[0]);
     else if (std::sscanf(line.c_str(), "COLORCORR=%lf %lf %lf", &by[0], &by[1], &by[2]) != 3) continue;
@@ -73,7 +73,7 @@ Header header_of(Rest& rest) {
   return header;
 }
 
-/// "-Y 480 +X 640": rows from the top, of pixels from the left; any order and any signs.
+/// "-Y 480 +X 640": rows from the top, with pixels from the left. Any order and any signs.
 struct Layout {
   int width, height;
   bool in_columns, from_right, from_below;
@@ -92,7 +92,7 @@ Layout layout_of(const std::string& line) {
   return {n[x], n[y], in_columns, sign[x] == '-', sign[y] == '+'};
 }
 
-// Repeated bytes, of each component alone.
+// Reads a line with run-length encoding of each component.
 void read_components(Rest& rest, std::vector<Rgbe>& line) {
   for (std::size_t c = 0; c < 4; ++c)
     for (std::size_t i = 0; i < line.size();) {
@@ -104,8 +104,8 @@ void read_components(Rest& rest, std::vector<Rgbe>& line) {
     }
 }
 
-// Pixels, of which 1, 1, 1, n means: the last one n times more; where such follow each other they are the digits of one
-// count to the base of 256, the lowest first.
+// Reads a line with run-length encoding of pixels. The pixel 1, 1, 1, n repeats the previous pixel n times. Consecutive
+// such pixels are the digits of one count in base 256, lowest digit first.
 void read_pixels(Rest& rest, const Rgbe& first, std::vector<Rgbe>& line) {
   int shift = 0;
   Rgbe next = first;
@@ -146,7 +146,7 @@ Image read_hdr(const std::string& path) {
   Rest rest{bytes};
   const Header header = header_of(rest);
   const Layout layout = layout_of(rest.line());
-  // Counted pixels may be as many as one likes; but a picture of so few bytes shows nothing.
+  // Run lengths allow any size, but an image from so few bytes would be nearly constant.
   mc::require(double(layout.width) * layout.height <= 4096.0 * double(rest.bytes.size()),
               "HDR says {}x{}, which its {} bytes cannot hold", layout.width, layout.height, bytes.size());
   Image image(layout.width, layout.height);

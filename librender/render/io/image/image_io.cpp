@@ -47,7 +47,7 @@ template <class Can> const Format& format_of(const std::string& path, std::strin
                               fmt::join(usable, ", "), last));
 }
 
-// Errors name the file that was asked for, not the temporary one.
+// Errors name the requested file, not the temporary one.
 void write_to(const std::string& temporary, const std::string& path, const Format& format, const Image& image,
               const ToneMapping& tone) {
   mc::with_context(path, [&] { format.write(temporary, image, tone); });

@@ -12,7 +12,7 @@
 
 namespace render::formats {
 
-// What the library only warns of, say of data that end early, is an error here: the picture would be another.
+// Treats warnings of the library, such as data that end early, as errors, because the image would be wrong.
 Image read_jpeg(const std::string& path) {
   const std::string file = mc::read_file(path);
   mc::require(file.starts_with("\xff\xd8"), "not a JPEG file: it does not begin with ff d8");
@@ -26,7 +26,7 @@ Image read_jpeg(const std::string& path) {
   require_done(tjDecompressHeader3(decoder.get(), data, file.size(), &width, &height, &subsampling, &colours));
   mc::require(colours != TJCS_CMYK && colours != TJCS_YCCK,
               "the JPEG holds the inks of a printer (CMYK); save it as RGB");
-  // A block of 64 pixels takes at least a bit.
+  // A block of 64 pixels takes at least one bit.
   mc::require(double(width) * double(height) <= 64 * 8 * double(file.size()),
               "JPEG says {}x{}, which its {} bytes cannot hold", width, height, file.size());
   std::vector<unsigned char> codes(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));

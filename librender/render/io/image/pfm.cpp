@@ -12,9 +12,9 @@
 
 namespace render::formats {
 
-// Portable float map: "PF", width height, scale (negative: little endian; its size multiplies the values), then rows
-// from the bottom up.
-// Written through mc::write_file by the caller's temporary name, so a full disk is noticed.
+// Portable float map: "PF", width, height, scale, then rows from the bottom up. A negative scale means little endian;
+// its size multiplies the values. Written by mc::write_file to the temporary name of the caller, so a full disk is
+// detected.
 void write_pfm(const std::string& path, const Image& image) {
   static_assert(std::endian::native == std::endian::little);
   std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
@@ -32,7 +32,7 @@ void write_pfm(const std::string& path, const Image& image) {
 
 namespace {
 
-// The next word of a header, from `at` on, which moves behind it: between words are blanks, and comments behind a #.
+// Returns the next word of the header and moves `at` behind it. Blanks separate words; # begins a comment.
 std::string_view word_from(std::string_view bytes, std::size_t& at) {
   constexpr const char* white = " \t\r\n";
   at = std::min(bytes.find_first_not_of(white, at), bytes.size());
@@ -62,7 +62,7 @@ Image read_pfm(const std::string& path) {
               *across, *down, scale);
   const int width = static_cast<int>(*across), height = static_cast<int>(*down), channels = magic == "PF" ? 3 : 1;
   const double needed = 4.0 * channels * width * height;
-  // One character ends the header, or two, where its other lines end in two or the size tells so.
+  // One character ends the header. It is two if other header lines end in two, or if the file size requires it.
   const bool may_end_in_two = bytes.find("\r\n") < start || double(bytes.size() - start) == needed + 2;
   start += may_end_in_two && bytes.compare(start, 2, "\r\n") == 0 ? 2 : 1;
   mc::require(double(bytes.size()) >= double(start) + needed, "PFM data ends early: {} bytes of {}",

@@ -17,8 +17,8 @@ namespace render::formats {
 
 namespace {
 
-// libpng leaves its functions by longjmp where something is wrong. So the functions below that call setjmp hold
-// nothing that has a destructor, and what they work on belongs to their callers.
+// libpng reports errors by longjmp. Functions that call setjmp therefore have no locals with destructors; their data
+// belong to the callers.
 struct Problem {
   char text[128] = "unreadable";
 };
@@ -73,7 +73,7 @@ class Writer {
 
 class Reader {
  public:
-  // The second constructor has finished when the header is read, so that the destructor runs where that throws.
+  // Delegates, so that the destructor runs if reading the header throws.
   explicit Reader(const std::string& bytes) : Reader(std::string_view(bytes)) {
     mc::require(read_header(), "broken PNG: {}", problem_.text);
   }
@@ -84,10 +84,10 @@ class Reader {
   std::size_t width() const { return png_get_image_width(png_, info_); }
   std::size_t height() const { return png_get_image_height(png_, info_); }
   std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
-  std::size_t packed_row_bytes() const { return packed_row_bytes_; } ///< as they are before compression
+  std::size_t packed_row_bytes() const { return packed_row_bytes_; } ///< size of a row before compression
   bool is_16_bit() const { return png_get_bit_depth(png_, info_) == 16; }
 
-  /// Linear values are encoded ones to this power, where the file says so and does not say sRGB.
+  /// Exponent that converts encoded to linear values, if the file contains one and is not marked as sRGB.
   std::optional<double> gamma() const {
     int intent = 0;
     double encoding = 0;
@@ -121,7 +121,7 @@ class Reader {
     rest->remove_prefix(size);
   }
 
-  // Every kind becomes RGB of 8 or 16 bits.
+  // Converts every colour type to RGB of 8 or 16 bits.
   bool read_header() {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_read_fn(png_, &rest_, take);
@@ -151,7 +151,7 @@ class Reader {
 
 std::uint8_t encode(double linear) {
   const double encoded = 255 * linear_to_srgb(linear);
-  return std::isfinite(encoded) ? static_cast<std::uint8_t>(std::lround(encoded)) : std::uint8_t{0}; // NaN
+  return std::isfinite(encoded) ? static_cast<std::uint8_t>(std::lround(encoded)) : std::uint8_t{0}; // NaN becomes 0
 }
 
 std::vector<png_bytep> rows_of(std::vector<std::uint8_t>& bytes, std::size_t row_bytes, std::size_t height) {
@@ -186,7 +186,7 @@ Image read_png(const std::string& path) {
   const std::string file = mc::read_file(path);
   Reader reader(file);
   const std::size_t row_bytes = reader.row_bytes(), height = reader.height();
-  // Deflate packs at most 1032 bytes in one.
+  // Deflate expands a byte to at most 1032 bytes.
   mc::require(reader.packed_row_bytes() * height <= 1032 * file.size(),
               "PNG says {}x{}, which its {} bytes cannot hold", reader.width(), height, file.size());
   std::vector<std::uint8_t> bytes(row_bytes * height);

@@ -12,8 +12,8 @@ namespace render {
 
 namespace {
 
-// The sum of the normals of the triangles about each vertex, by their angles there, so that it does not matter how a
-// polygon was cut.
+// Sums the normals of the triangles at each vertex, weighted by their angles there. The result does not depend on how a
+// polygon was split.
 std::vector<Vec3> smooth_normals(const std::vector<Vec3d>& positions,
                                  const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::vector<Vec3d> sums(positions.size(), Vec3d::Zero());
@@ -31,10 +31,10 @@ std::vector<Vec3> smooth_normals(const std::vector<Vec3d>& positions,
   return normals;
 }
 
-// Turns triangles so that their normals are on the side of those of their vertices.
+// Orients triangles so that their normals lie on the side of the normals of their vertices.
 void wind_about(const std::vector<Vec3>& normals, const std::vector<Vec3d>& positions,
                 std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  if (normals.size() != positions.size()) return; // for TriangleMesh to refuse
+  if (normals.size() != positions.size()) return; // TriangleMesh will reject it
   for (auto& t : triangles) {
     const Vec3d normal = mc::cross<double>(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
     const Vec3 meant = normals[t[0]] + normals[t[1]] + normals[t[2]];
@@ -64,7 +64,7 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
     Vec3d normal;
     std::uint32_t vertex;
   };
-  std::map<std::array<double, 5>, std::vector<SmoothingGroup>> sides; // of what is at a position and texture coordinate
+  std::map<std::array<double, 5>, std::vector<SmoothingGroup>> sides; // groups at each position and texture coordinate
   MeshFile split;
   split.missing_uv_reason = file.missing_uv_reason;
   split.meshes = file.meshes;
@@ -75,8 +75,9 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
       const Vec3d& p = file.positions[v];
       const mc::Vec2<float> uv = file.uvs.empty() ? mc::Vec2<float>(0, 0) : file.uvs[v];
       auto& about = sides[{p[0], p[1], p[2], double(uv[0]), double(uv[1])}];
-      auto side = std::find_if(about.begin(), about.end(),
-                               [&](const SmoothingGroup& s) { return s.normal == normal || s.normal.dot(normal) > least; });
+      auto side = std::find_if(about.begin(), about.end(), [&](const SmoothingGroup& s) {
+        return s.normal == normal || s.normal.dot(normal) > least;
+      });
       if (side == about.end()) {
         side = about.insert(side, {normal, static_cast<std::uint32_t>(split.positions.size())});
         split.positions.push_back(p);

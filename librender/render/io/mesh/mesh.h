@@ -1,5 +1,5 @@
 #pragma once
-/// What the readers of mesh files have in common.
+/// Readers of mesh files.
 
 #include <render/core/transform.h>
 #include <render/shape/triangle_mesh.h>
@@ -11,51 +11,50 @@
 
 namespace render {
 
-/// A mesh as a file holds it. Normals and texture coordinates: one for each position, or none. Where all corners of a
-/// triangle have the normal 0, it is flat.
+/// A mesh as stored in a file. Normals and texture coordinates are one per position, or none. A triangle is flat if the
+/// normals at all its corners are 0.
 struct MeshFile {
-  std::vector<Vec3d> positions, normals;
-  std::vector<mc::Vec2<float>> uvs;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::string missing_uv_reason; ///< why there are no texture coordinates: "the face of line 7 has none"
-  std::size_t meshes = 1;        ///< in the file, of which this is one
+  std::vector<Vec3d> positions, normals;               ///< Positions, and a normal for each of them or none.
+  std::vector<mc::Vec2<float>> uvs;                    ///< Texture coordinates, one per position or none.
+  std::vector<std::array<std::uint32_t, 3>> triangles; ///< Indices of the vertices of each triangle.
+  std::string missing_uv_reason; ///< Why there are no texture coordinates: "the face of line 7 has none".
+  std::size_t meshes = 1;        ///< Number of meshes in the file.
 };
 
-/// The shape of a mesh file under `to_world`, its triangles turned to the side of the file's normals; without these a
-/// mirroring transform keeps theirs on their side.
-///   flat   : without normals; else those of the file, or where it has none the mean of the faces about each vertex, by
-///            their angles there [ThuermerWuethrich98]
-///   throws : Error for what TriangleMesh refuses, and where no triangle has an area
+/// The shape of a mesh file, transformed by `to_world`. Triangles are oriented to the side of the normals of the file.
+/// Without normals in the file, a mirroring transform keeps the geometric normals on their side.
+///   flat   : omits shading normals. Otherwise they are the normals of the file. If the file has none, they are the
+///            means of the face normals at each vertex, weighted by the angles there [ThuermerWuethrich98].
+///   throws : Error for meshes that TriangleMesh rejects, and if no triangle has a positive area.
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 
-/// The mesh without its normals, for to_shape to make smooth ones, its vertices shared only where faces meet under
-/// `to_world` at less than an angle: what is at one position and texture coordinate is one vertex for the faces that
-/// turn away by less than that from the first of them, and so on for the others.
-///   throws : Error unless the angle lies in [0, 180]
-///   Source : Mitsuba 0.6, maxSmoothAngle
+/// The mesh without its normals, with vertices split at sharp edges, so that to_shape makes normals that are smooth
+/// elsewhere. At each position and texture coordinate, faces share a vertex if their normals under `to_world` deviate
+/// by less than `degrees` from the first face. The remaining faces form further vertices by the same rule.
+///   throws : Error unless the angle lies in [0, 180].
+///   Source : Mitsuba 0.6, maxSmoothAngle.
 MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double degrees);
 
-/// Throws Error, naming the first, where a vertex or a normal is not finite or a triangle names a vertex that is not
-/// there.
+/// Throws Error for the first vertex or normal that is not finite, or the first triangle with an invalid vertex index.
 void require_valid_mesh(const MeshFile& file);
 
-/// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored. Faces without
-/// normals are flat where others have them; where none has, groups and materials share no vertices. Texture coordinates
-/// count where all faces have them.
-///   throws : Error that names file and line for a missing or broken file, an index out of range, a vertex that is not
-///            finite
+/// Reads all faces of a Wavefront OBJ file as one mesh and splits polygons into triangles. Ignores materials. If some
+/// faces have normals, the others are flat. If none has, vertices are not shared across groups and materials. Texture
+/// coordinates are kept only if all faces have them.
+///   throws : Error with file and line for a missing or broken file, an index out of range, or a vertex that is not
+///            finite.
 MeshFile read_obj(const std::string& path);
 
-/// Stanford's PLY, ascii or binary of either byte order: the elements vertex (x, y, z, and where it has them nx, ny, nz
-/// and u, v or s, t) and face (vertex_indices or vertex_index), polygons cut into triangles; what else it holds is left
-/// out.
-///   throws : Error that names file and place for a missing or broken file, counts that its bytes cannot hold, an index
-///            out of range, a vertex that is not finite
+/// Reads a Stanford PLY file, ASCII or binary of either byte order, and splits polygons into triangles. Reads the
+/// element `vertex` (x, y, z; optionally nx, ny, nz and u, v or s, t) and the element `face` (vertex_indices or
+/// vertex_index). Ignores all other content.
+///   throws : Error with file and place for a missing or broken file, counts too large for the size of the file, an
+///            index out of range, or a vertex that is not finite.
 MeshFile read_ply(const std::string& path);
 
-/// Mesh number `index` of a file in Mitsuba's serialized format, versions 3 and 4.
-///   throws : Error that names the file for a missing or broken one, counts that its bytes cannot hold, an index out of
-///            range, a vertex that is not finite
+/// Reads mesh number `index` of a file in the serialized format of Mitsuba, versions 3 and 4.
+///   throws : Error with the file for a missing or broken file, counts too large for its size, an index out of range,
+///            or a vertex that is not finite.
 MeshFile read_serialized(const std::string& path, int index);
 
 } // namespace render

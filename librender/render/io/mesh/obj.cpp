@@ -18,7 +18,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// The first word of the rest of a line, which it leaves; empty at its end.
+/// Removes and returns the first word of `rest`; empty at the end.
 std::string_view next_word(std::string_view& rest) {
   const auto begin = std::find_if_not(rest.begin(), rest.end(), is_blank);
   const auto end = std::find_if(begin, rest.end(), is_blank);
@@ -37,15 +37,15 @@ template <class F> void for_each_line(std::string_view text, const F& f) {
   }
 }
 
-// All lines end in a line feed, whatever they end in.
+// Converts all line ends to line feeds.
 std::string with_plain_ends(std::string text) {
   for (std::size_t i = text.find('\r'); i != text.npos; i = text.find('\r', i + 1))
     text[i] = text.compare(i, 2, "\r\n") == 0 ? ' ' : '\n';
   return text;
 }
 
-// Lines that end in a backslash with the next ones behind them, but for comments. Their ends follow further down, so
-// that every line keeps its number.
+// Joins lines that end in a backslash with the next line, except in comments. The removed line ends are appended after
+// the joined line, so that later lines keep their numbers.
 std::string with_lines_joined(std::string text) {
   if (text.find('\\') == text.npos) return text;
   std::string joined;
@@ -70,13 +70,13 @@ std::string with_lines_joined(std::string text) {
 
 struct Element {
   std::string_view keyword, name, axes;
-  std::size_t needed; ///< axes that must be given
+  std::size_t needed; ///< Number of coordinates required.
 };
 enum Kind : std::size_t { position, uv, normal };
 constexpr std::array<Element, 3> elements = {
     {{"v", "vertex", "xyz", 3}, {"vt", "texture coordinate", "uv", 1}, {"vn", "normal", "xyz", 3}}};
 
-/// The numbers of a line; what need not be given is 0.
+/// The coordinates in a line; optional ones default to 0.
 Vec3d numbers_of(std::size_t line, const Element& element, std::size_t index, std::string_view rest) {
   Vec3d numbers = Vec3d::Zero();
   for (std::size_t axis = 0; axis < element.axes.size(); ++axis) {
@@ -93,15 +93,17 @@ Vec3d numbers_of(std::size_t line, const Element& element, std::size_t index, st
 }
 
 constexpr std::uint32_t none = 0xffffffff;
-using Corner = std::array<std::uint32_t, elements.size()>; ///< its elements, counted from 0; or none
+/// Indices of the elements of a corner, counted from 0; or none.
+using Corner = std::array<std::uint32_t, elements.size()>;
 
-/// What the file's lines say.
+/// The content of the file.
 struct Lines {
   std::array<std::vector<Vec3d>, elements.size()> values;
-  std::vector<Corner> corners;       ///< of all faces
-  std::vector<std::size_t> ends;     ///< of each face in `corners`
-  std::vector<std::uint32_t> groups; ///< of each face: a new one from every `g` and `usemtl` on
-  /// The first line of a face with corners that have no such element. Of none of its corners they count then.
+  std::vector<Corner> corners;       ///< corners of all faces
+  std::vector<std::size_t> ends;     ///< end of each face in `corners`
+  std::vector<std::uint32_t> groups; ///< group of each face: each `g` and `usemtl` begins a new group
+  /// First line of a face in which only some corners have this element, or 0. Such an element is ignored for the whole
+  /// face.
   std::array<std::size_t, elements.size()> without = {};
 
   bool has(Kind kind) const {
@@ -109,7 +111,8 @@ struct Lines {
   }
 };
 
-/// Which element a field names: from 1 on, or back from the last one above the line.
+/// Index of the element that a field refers to: from 1 on, or, if negative, backward from the last element above the
+/// line.
 std::uint32_t place_of(std::size_t line, const Element& element, std::string_view field, std::size_t above,
                        std::size_t count) {
   std::int64_t index = 0;
@@ -123,7 +126,7 @@ std::uint32_t place_of(std::size_t line, const Element& element, std::string_vie
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<std::int64_t>(above) + index);
 }
 
-/// A corner is v, v/vt, v//vn or v/vt/vn; slashes at its end mean nothing.
+/// A corner is v, v/vt, v//vn or v/vt/vn. Trailing slashes are ignored.
 Corner corner_of(std::size_t line, std::string_view word, const std::array<std::size_t, elements.size()>& above,
                  const Lines& lines) {
   const std::string_view whole = word;
@@ -154,7 +157,7 @@ void read_face(std::size_t line, std::string_view rest, const std::array<std::si
   }
 }
 
-// Faces may name what stands below them: they are read when the rest is.
+// Reads the faces last, because they may refer to elements below them.
 Lines lines_of(std::string_view text) {
   Lines lines;
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
@@ -181,7 +184,7 @@ struct HashOfCorner {
   std::size_t operator()(const Corner& c) const { return mc::hash(c[0], c[1], c[2]); }
 };
 
-/// One vertex for each distinct corner; groups without normals do not share any, and so are not smoothed together.
+/// One vertex for each distinct corner. Groups without normals share no vertices, so they are not smoothed together.
 MeshFile mesh_of(Lines lines) {
   const bool has_normals = lines.has(normal), has_uvs = lines.without[uv] == 0 && lines.has(uv);
   if (!has_uvs)
@@ -203,7 +206,8 @@ MeshFile mesh_of(Lines lines) {
     if (has_normals) mesh.normals.push_back(value(corner, normal));
     if (!has_uvs) return at->second;
     const Vec3d t = value(corner, uv);
-    mesh.uvs.emplace_back(static_cast<float>(t[0]), static_cast<float>(1 - t[1])); // up there, down here, as Mitsuba
+    // v points up in OBJ and down here, as in Mitsuba.
+    mesh.uvs.emplace_back(static_cast<float>(t[0]), static_cast<float>(1 - t[1]));
     return at->second;
   };
   std::vector<std::uint32_t> face;

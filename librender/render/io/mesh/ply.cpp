@@ -36,7 +36,7 @@ constexpr std::array<TypeRow, 8> types = {{{"char", "int8", Type::i8, 1},
 struct Property {
   std::string name;
   TypeRow type;
-  std::optional<TypeRow> count; ///< of a list
+  std::optional<TypeRow> count; ///< type of the length, for a list
 };
 struct Element {
   std::string name;
@@ -62,13 +62,13 @@ template <class T> T swapped(T value) {
   return std::bit_cast<T>(bytes);
 }
 
-/// The numbers of a file's body, one after the other.
+/// Reads the numbers in the body of a file in sequence.
 class Numbers {
  public:
   Numbers(std::string_view bytes, const Header& header) : rest_(bytes), ascii_(header.ascii), swap_(header.swap) {}
 
   std::size_t bytes_left() const { return rest_.size(); }
-  /// The fewest bytes that a number takes.
+  /// Smallest number of bytes that a number takes.
   std::size_t least_size(const TypeRow& type) const { return ascii_ ? 2 : type.size; } // a digit and a blank
 
   double next(const TypeRow& type) {
@@ -114,7 +114,7 @@ TypeRow type_of(const std::string& name, std::size_t line) {
   throw mc::Error(fmt::format("line {}: '{}' is no type of a number", line, name));
 }
 
-/// Reads the header and leaves the body.
+/// Reads the header and removes it from `bytes`.
 Header read_header(std::string_view& bytes) {
   Header header;
   bool has_format = false;
@@ -137,7 +137,7 @@ Header read_header(std::string_view& bytes) {
       has_format = true;
     } else if (keyword == "element") {
       Element element;
-      std::string rows; // as a stream reads it, -3 is 2^64 - 3
+      std::string rows; // stream input would read -3 as 2^64 - 3
       mc::require(bool(words >> element.name >> rows), "line {}: an element needs a name and a number", line);
       const auto [rest, error] = std::from_chars(rows.data(), rows.data() + rows.size(), element.rows);
       mc::require(error == std::errc() && rest == rows.data() + rows.size(),
@@ -167,14 +167,14 @@ std::size_t list_length(double value) {
   return static_cast<std::size_t>(value);
 }
 
-/// Reads row by row: numbers by their place in the row, and the one list that is asked for.
+/// Reads an element row by row: the numbers of a row by their position, and the one list `wanted`.
 class Rows {
  public:
   Rows(const Element& element, Numbers& numbers, std::optional<std::size_t> wanted)
       : element_(element), numbers_(numbers), list_(wanted) {
     std::size_t least = 0;
     for (const Property& p : element.properties) least += numbers.least_size(p.count ? *p.count : p.type);
-    // The last number of a text needs no blank.
+    // The last number of a text file needs no blank.
     mc::require(element.rows == 0 || (least > 0 && element.rows <= (numbers.bytes_left() + 1) / least),
                 "{} rows of {} do not fit in the {} bytes that follow", element.rows, element.name,
                 numbers.bytes_left());
@@ -183,7 +183,7 @@ class Rows {
   void next() {
     try {
       read();
-    } catch (const mc::Error& e) { // with_context would name every row beforehand
+    } catch (const mc::Error& e) { // with_context would format the name of every row in advance
       throw mc::Error(fmt::format("{} {}: {}", element_.name, row_, e.what()));
     }
     ++row_;
@@ -232,7 +232,7 @@ void read_vertices(const Element& element, Numbers& numbers, MeshFile& mesh) {
   }
 }
 
-/// Of all faces the corners, and where each face ends among them.
+/// The corners of all faces, and the end of each face among them.
 struct Faces {
   std::vector<std::uint32_t> corners;
   std::vector<std::size_t> ends;
@@ -272,7 +272,7 @@ MeshFile mesh_of(std::string_view bytes) {
   require_faces(header);
   MeshFile mesh;
   mesh.missing_uv_reason = "its vertices have no u and v";
-  Faces faces; // they may stand before the vertices
+  Faces faces; // faces may precede the vertices
   Numbers numbers(bytes, header);
   for (const Element& element : header.elements) {
     if (element.name == "vertex") read_vertices(element, numbers, mesh);

@@ -11,18 +11,18 @@ namespace {
 using Point = mc::Vec2<double>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Twice the area of a triangle, > 0 where it turns left.
+// Twice the signed area of a triangle; > 0 for counter-clockwise corners.
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-// A polygon in its plane, of size 1, turning left.
+// A polygon projected to its plane, scaled to size 1, counter-clockwise.
 struct Flat {
   std::vector<Point> points;
-  double area2 = 0; // twice its area
+  double area2 = 0; // twice the area of the polygon
 };
 
-// Seen along the axis that its normal is nearest to: what lies within what stays as it is. Nothing where it has no
+// Projects along the coordinate axis nearest to the normal, which preserves containment. nullopt for a polygon without
 // area.
 std::optional<Flat> flattened(std::span<const Vec3d> corners) {
   double size = 0;
@@ -41,14 +41,14 @@ std::optional<Flat> flattened(std::span<const Vec3d> corners) {
   return flat;
 }
 
-// Whether all triangles about corner 0 turn left: then they lie side by side.
+// Whether all triangles of the fan about corner 0 are counter-clockwise. Then they do not overlap.
 bool sees_all(const std::vector<Point>& p) {
   for (std::size_t i = 2; i < p.size(); ++i)
     if (!(turn(p[0], p[i - 1], p[i]) >= 0)) return false;
   return true;
 }
 
-// The corners that are left, in a ring.
+// The remaining corners in a circular list.
 class Ring {
  public:
   explicit Ring(const Flat& flat) : points_(flat.points), negligible_(1e-12 * flat.area2) {
@@ -63,13 +63,15 @@ class Ring {
   Triangle triangle(std::uint32_t i) const { return {previous_[i], i, next_[i]}; }
   bool turns_left(std::uint32_t i) const { return turn_at(i) > 0; }
   bool is_flat(std::uint32_t i) const { return std::abs(turn_at(i)) <= negligible_; }
-  // Goes where it came from: beyond it what is within looks like what is without.
+  // Whether the edge after the corner goes back along the edge before it. Inside and outside cannot be distinguished
+  // beyond such a corner.
   bool is_spike(std::uint32_t i) const {
     const Point back = points_[previous_[i]] - points_[i], on = points_[next_[i]] - points_[i];
     return is_flat(i) && back.dot(on) > 0;
   }
 
-  // Whether the triangle at corner i holds nothing of the rest: where it does, then a corner that does not turn left.
+  // Whether the triangle at corner i contains no other remaining corner. It suffices to test corners that do not turn
+  // left.
   bool is_ear(std::uint32_t i) const {
     const auto [a, b, c] = triangle(i);
     for (std::uint32_t j = next_[c]; j != a; j = next_[j])
@@ -84,7 +86,7 @@ class Ring {
 
  private:
   double turn_at(std::uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]); }
-  // Edges too, but not the corners: where a slit begins, two corners are one point.
+  // Whether triangle i contains p. Edges count, corners do not: where a slit begins, two corners coincide.
   bool holds(std::uint32_t i, const Point& p) const {
     const Point &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
     return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 && p != a && p != b && p != c;
@@ -95,8 +97,8 @@ class Ring {
   std::vector<std::uint32_t> next_, previous_;
 };
 
-// The first of the corners left, from `from` on, that can be cut off: a spike, or, where there is none, an ear, or one
-// without an area, or, of a polygon that crosses itself, any.
+// The first remaining corner, from `from` on, that can be removed: a spike, else an ear, else a corner without area.
+// For a self-intersecting polygon any corner.
 std::uint32_t ear_from(const Ring& ring, std::uint32_t from, std::size_t left) {
   const auto find = [&](const auto& is_wanted) -> std::optional<std::uint32_t> {
     std::uint32_t i = from;
@@ -134,7 +136,7 @@ std::vector<Triangle> triangulate_polygon(std::span<const Vec3d> corners) {
 
 void append_triangulated(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
                          std::vector<Triangle>& triangles) {
-  if (polygon.size() == 3) { // most are
+  if (polygon.size() == 3) { // the most common case
     triangles.push_back({polygon[0], polygon[1], polygon[2]});
     return;
   }

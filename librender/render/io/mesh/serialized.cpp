@@ -26,7 +26,7 @@ template <class T> T value_at(std::string_view bytes, std::uint64_t offset) {
   return value;
 }
 
-/// Unpacks a stream of zlib as far as it is asked to.
+/// Decompresses a zlib stream on demand.
 class Unpacked {
  public:
   explicit Unpacked(std::string_view packed) : packed_size_(packed.size()) {
@@ -38,10 +38,10 @@ class Unpacked {
   Unpacked(const Unpacked&) = delete;
   Unpacked& operator=(const Unpacked&) = delete;
 
-  /// The next numbers.
-  ///   throws : Error where the stream ends before or is broken
+  /// Returns the next numbers.
+  ///   throws : Error if the stream is broken or ends early.
   template <class T> std::vector<T> take(std::size_t count) {
-    // Deflate packs at most 1032 bytes in one.
+    // Deflate expands a byte to at most 1032 bytes.
     mc::require(count <= 1032 * packed_size_ / sizeof(T), "{} numbers of {} bytes do not fit in {} packed bytes", count,
                 sizeof(T), packed_size_);
     std::vector<T> values(count);
@@ -69,7 +69,7 @@ class Unpacked {
   z_stream stream_{};
 };
 
-// Where each mesh begins stands at the end of the file, and at the very end their number.
+// Offset of a mesh and the number of meshes. The file ends with a table of offsets, followed by the number of meshes.
 struct Found {
   std::uint64_t begin, meshes;
 };
@@ -120,7 +120,7 @@ MeshFile read_serialized(const std::string& path, int index) {
     const auto flags = data.take<std::uint32_t>();
     if (version == 4)
       while (data.take<char>() != 0) {
-      } // its name
+      } // skips the name
     const auto vertices = data.take<std::uint64_t>(), triangles = data.take<std::uint64_t>();
     mc::require(vertices <= 0xffffffff && triangles <= 0xffffffff, "{} vertices and {} triangles are too many",
                 vertices, triangles);

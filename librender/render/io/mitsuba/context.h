@@ -1,5 +1,5 @@
 #pragma once
-/// What the plugins of one scene file share: its folder, its dialect, and what has an id.
+/// State shared by the plugins of one scene file: folders, dialect and named elements.
 
 #include <render/io/mitsuba/file_resolver.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -18,56 +18,62 @@
 
 namespace render::mitsuba {
 
-/// Whether a <scene> is written for Mitsuba 2 or 3, by its version: 2.x or 3.x; else 0.4 to 0.6, or none at all.
-///   throws : Error for any other version
+/// Whether a <scene> has the version of Mitsuba 2 or 3 (2.x or 3.x). False for versions 0.4 to 0.6 and without a
+/// version.
+///   throws : Error for any other version.
 bool is_mitsuba_2_scene(const XmlElement& scene);
 
-/// Filled while a scene is read. `root` must outlive it.
+/// State of the reader of one scene. `root` must outlive it.
 class Context {
  public:
-  /// origin : the point of the file that becomes the origin of the scene
-  /// throws : Error for two elements of the same id
+  /// Collects the ids below `root`.
+  ///   origin : the point of the file that becomes the origin of the scene.
+  ///   throws : Error for two elements with the same id.
   Context(const XmlElement& root, Dialect dialect, const Vec3d& origin);
 
+  /// The dialect of the scene.
   Dialect dialect() const { return dialect_; }
-  /// Whether the scene means what it does in Mitsuba 2 and 3: by its version, unless lajolla is to read it.
+  /// Whether the scene follows the conventions of Mitsuba 2 and 3: by its version, unless the dialect is lajolla.
   bool is_mitsuba_2() const { return is_mitsuba_2_; }
-  /// The light that the spectra of what reflects are seen in.
+  /// Illuminant of reflectance spectra.
   Illuminant illuminant() const { return is_mitsuba_2_ ? Illuminant::d65 : Illuminant::equal_energy; }
-  /// What spectra are beyond their samples.
+  /// Values of spectra beyond their samples.
   Extrapolation extrapolation() const;
+  /// The point of the file that becomes the origin of the scene.
   const Vec3d& origin() const { return origin_; }
 
-  /// Where the files are that the scene names.
+  /// Folders searched for the files of the scene.
   FileResolver folders;
 
-  /// The element itself, or the one whose id a <ref> names.
-  ///   throws : Error for an unknown id, naming the nearest, or when it is no <tag>, naming what it is
+  /// The element itself, or, for a <ref>, the element with the referenced id.
+  ///   throws : Error for an unknown id, with the most similar id, or if the element is no <tag>, with its actual tag.
   const XmlElement& resolve(const XmlElement& element, std::string_view tag) const;
 
-  /// The BSDF that a <bsdf> describes or a <ref> names.
-  ///   throws : Error for what cannot be read and for references that lead in a circle
+  /// Reads the BSDF that a <bsdf> describes or a <ref> references.
+  ///   throws : Error for an invalid BSDF and for circular references.
   Material read_bsdf(const XmlElement& element);
-  /// The same, added to the scene when first met.
+  /// Reads the same BSDF and adds it to the scene, once per element.
   BsdfId bsdf(const XmlElement& element);
-  /// The BSDF of shapes that name none: diffuse, and of lamps black.
+  /// Default BSDF of shapes without one: diffuse, or black for lamps.
   BsdfId default_bsdf(bool is_lamp);
 
-  /// The texture that a <texture> describes or a <ref> names.
+  /// The texture that a <texture> describes or a <ref> references.
   Texture texture(const XmlElement& element);
-  /// The picture in a file, read when first asked for.
-  ///   throws : what read_image throws
+  /// The image in a file, read on first use.
+  ///   throws : the errors of read_image.
   std::shared_ptr<const Texels> picture(const std::string& path);
 
-  /// The path of a file that the scene names.
+  /// Path of a file that the scene refers to; recorded in files().
   std::string file(const std::string& name);
+  /// All files that were requested.
   const std::set<std::string>& files() const { return files_; }
 
-  /// Notes once what an element means here that it does not mean elsewhere.
+  /// Adds a warning for an element, once.
   void warn(const XmlElement& element, const std::string& what);
+  /// All warnings, with their places.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The scene as far as it is read.
+  /// The scene so far.
   SceneBuilder builder;
 
  private:
@@ -78,7 +84,7 @@ class Context {
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
-  std::array<std::optional<BsdfId>, 2> default_bsdfs_; ///< of other shapes and of lamps
+  std::array<std::optional<BsdfId>, 2> default_bsdfs_; ///< for other shapes, and for lamps
   std::set<const XmlElement*> being_read_;
   std::map<const XmlElement*, Texture> textures_;
   std::map<std::string, std::shared_ptr<const Texels>> pictures_;

@@ -28,10 +28,10 @@ std::string FileResolver::find(const std::string& name) const {
 
 namespace {
 
-constexpr int most_levels = 16;  // of files that include files
-constexpr int most_files = 1000; // a file counts as often as it is included
+constexpr int most_levels = 16;  // of nested includes
+constexpr int most_files = 1000; // a file counts once per inclusion
 
-// The children of a <scene>, `level` files below the first; `files` counts what is included.
+// Children of a <scene> with includes resolved. `level` is the nesting depth; `files` counts all inclusions.
 std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlElement> children, int level, int& files) {
   std::vector<XmlElement> all, paths;
   for (XmlElement& child : children) {
@@ -57,7 +57,7 @@ std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlEle
     if (++files > most_files) child.fail(fmt::format("more than {} files are included; include each once", most_files));
     std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1, files);
     included.mark_used();
-    included.children.clear(); // seen where they went
+    included.children.clear(); // checked in their new place
     included.require_all_used();
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the files are that a scene names.
+/// Search for the files that a scene refers to.
 
 #include <render/io/xml.h>
 
@@ -9,24 +9,26 @@
 
 namespace render::mitsuba {
 
-/// The folder of the scene file and those of its <path> elements, searched from the last to the first.
+/// The folders of a scene: the folder of the scene file and the folders of its <path> elements, searched from last to
+/// first.
 class FileResolver {
  public:
+  /// Starts with the folder of the scene file.
   explicit FileResolver(const XmlElement& root) : folders_{std::filesystem::path(root.file).parent_path()} {}
 
-  /// The folder that a <path> names, relative to the file in which it stands, or else to one of those so far.
-  ///   throws : Error where there is no such folder
+  /// Adds the folder of a <path>, relative to its file, or else to one of the folders so far.
+  ///   throws : Error if there is no such folder.
   void add(const XmlElement& path);
 
-  /// The path of a file; where it is in none of the folders, that in the scene file's.
+  /// Path of a file. If no folder contains it, its path in the folder of the scene file.
   std::string find(const std::string& name) const;
 
  private:
   std::vector<std::filesystem::path> folders_;
 };
 
-/// Puts in the place of every <include filename="base.xml"/> of the scene what the <scene> of that file holds.
-///   throws : Error for a file that cannot be read, for one that is no <scene>, and for files that include each other
+/// Replaces every <include filename="base.xml"/> of the scene by the content of the <scene> in that file.
+///   throws : Error for a file that cannot be read or contains no <scene>, and for circular includes.
 void include_files(XmlElement& root);
 
 } // namespace render::mitsuba

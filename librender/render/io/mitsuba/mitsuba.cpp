@@ -22,7 +22,7 @@ class Reader {
  public:
   Reader(const XmlElement& root, Dialect dialect, const Vec3d& origin) : root_(root), context_(root, dialect, origin) {}
 
-  /// Where the camera stands, by the <sensor> alone.
+  /// Position of the camera, from the <sensor> alone.
   Vec3d eye() {
     for (const XmlElement& e : root_.children)
       if (e.tag == "sensor") return read_plugin(sensor_plugins(), e, context_).camera.origin().cast<double>();
@@ -68,7 +68,7 @@ class Reader {
   }
 
   void named_bsdf(const XmlElement& e) {
-    e.attribute("id"); // without one nothing could use it
+    e.attribute("id"); // an id is required: nothing could refer to the BSDF without it
     context_.bsdf(e);
   }
 
@@ -78,7 +78,7 @@ class Reader {
   }
 
   void shape(const XmlElement& e) {
-    // A reference that leads nowhere is named before what the plugin lacks.
+    // Reports invalid references before errors of the plugin.
     for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
     ShapeDescription s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
@@ -95,7 +95,7 @@ class Reader {
   bool has_background_ = false;
 };
 
-// As Coarseness::ratio, were the scene about `origin`.
+// FloatResolution::ratio of the scene if `origin` were its origin.
 double coarseness_about(const Vec3d& origin, const Scene& scene) {
   constexpr double step = double(std::numeric_limits<Float>::epsilon());
   double worst = 0;
@@ -104,13 +104,14 @@ double coarseness_about(const Vec3d& origin, const Scene& scene) {
     const auto reach = [&](const Vec3d& from) {
       return std::max((box.min() - from).lpNorm<Eigen::Infinity>(), (box.max() - from).lpNorm<Eigen::Infinity>());
     };
-    const double size = std::max(box.diagonal().norm(), step * reach(Vec3d::Zero())); // as far as it is known
+    // At least the rounding error of its coordinates.
+    const double size = std::max(box.diagonal().norm(), step * reach(Vec3d::Zero()));
     worst = std::max(worst, step * reach(origin) / size);
   }
   return worst;
 }
 
-// The median of the surfaces' middles along each axis: walls of huge radius do not move it.
+// The median of the centres of the surfaces along each axis. Walls of huge radius do not affect it.
 Vec3d median_of(const Scene& scene) {
   Vec3d median;
   for (int a = 0; a < 3; ++a) {
@@ -123,9 +124,10 @@ Vec3d median_of(const Scene& scene) {
   return median;
 }
 
-// Where the scene's shapes are, unless that is at the origin to within some of their size: coordinates are floats, too
-// coarse for what lies far away. Walls of huge radius hide that: then it is the median, if that holds what the origin
-// does not. Where nothing is left of the shapes in floats, it is where the camera stands.
+// Offset by which the origin should move, or 0. Coordinates are floats, which are too coarse for geometry far from the
+// origin. The middle of the bounds is used if the scene lies far away compared with its size. Huge walls may hide such
+// a scene: then the median is used, if it resolves the shapes much better than the origin does. If the shapes overflow,
+// the position of the camera is used.
 Vec3d middle_of(const Scene& scene) {
   if (scene.surfaces().empty()) return Vec3d::Zero();
   const Vec3d lo = scene.bounds().lo.cast<double>(), hi = scene.bounds().hi.cast<double>(), middle = (lo + hi) / 2;
@@ -137,8 +139,8 @@ Vec3d middle_of(const Scene& scene) {
                                                                                              : Vec3d(Vec3d::Zero());
 }
 
-// About the origin of the file, or about the scene where that is far from there. From afar its middle is seen vaguely,
-// from there well.
+// Reads the scene relative to the origin of the file, or to its own middle if that is far away. Repeats up to four
+// times, because the middle of a distant scene is inaccurate at first.
 SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
   Vec3d origin = Vec3d::Zero();
   for (int looks = 1;; ++looks) {
@@ -147,7 +149,7 @@ SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
       SceneFile file = Reader(root, dialect, origin).read();
       step = middle_of(file.scene);
       if (step.isZero() || looks == 4) return file;
-    } catch (const mc::Error&) { // far away a small lamp has lost its area
+    } catch (const mc::Error&) { // far from the origin, a small lamp may have lost its area
       step = looks == 1 ? Reader(root, dialect, origin).eye() : Vec3d(Vec3d::Zero());
       if (step.isZero()) throw;
     }
@@ -155,7 +157,7 @@ SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
   }
 }
 
-// Of the elements, which may come from files that are included.
+// Adds the files of all elements, which may come from includes.
 void add_files(const XmlElement& element, std::set<std::string>& files) {
   files.insert(element.file);
   for (const XmlElement& child : element.children) add_files(child, files);

@@ -12,7 +12,7 @@ constexpr const char* share_of_light = "share of light";
 
 std::string text_of(const Vec3d& v) { return fmt::format("{}, {}, {}", v[0], v[1], v[2]); }
 std::string text_of(const Spectrum& s) {
-  // Colours are given in decimals: the shortest that is this float.
+  // Colours are decimals: prints the shortest decimal that rounds to this float.
   if (s[0] == s[1] && s[1] == s[2]) return fmt::format("{}", s[0]);
   return fmt::format("{}, {}, {}", s[0], s[1], s[2]);
 }
@@ -31,7 +31,7 @@ std::size_t word_of(const XmlElement& e, const std::vector<std::string>& words) 
   return static_cast<std::size_t>(found - words.begin());
 }
 
-// Whether it is the name as Mitsuba 2 and 3 spell it, and lajolla too: intIOR is int_ior.
+// Whether `word` is `name` in the spelling of Mitsuba 2 and 3 and lajolla: int_ior for intIOR.
 bool is_in_snake_case(std::string_view word, std::string_view name) {
   std::string spelled;
   bool after_small = false;
@@ -61,7 +61,7 @@ const XmlElement* Declaration::find(const XmlElement& plugin) const {
       child.fail(fmt::format("'{}' must be a <{}>", name, fmt::join(tags, "> or <")));
     child.mark_used();
     child.attribute_or("id", "");
-    child.attribute_or("name", ""); // a nested plugin may be named too
+    child.attribute_or("name", ""); // nested plugins may have a name too
     found = &child;
   }
   return found;

@@ -1,5 +1,5 @@
 #pragma once
-/// A parameter of a plugin, declared once: reading it, the errors about it and the reference all follow from that.
+/// Declarations of plugin parameters. The declaration drives the parser, its errors and the reference.
 
 #include <render/io/mitsuba/context.h>
 #include <render/io/mitsuba/values.h>
@@ -12,74 +12,77 @@
 
 namespace render::mitsuba {
 
-/// How a parameter is written in a scene file, and what the reference says of it.
+/// How a parameter is written in a scene file, and its description in the reference.
 struct Declaration {
-  std::string name;              ///< its name attribute, or "<film>" for a nested plugin, which needs no name
-  std::string type, unit;        ///< as the reference calls them
-  std::vector<std::string> tags; ///< the elements that it may be written as
-  std::string meaning;
-  std::string fallback = "-"; ///< where it is not given; "-": it must be
-  std::string lajolla = {};   ///< the same in lajolla's dialect; empty: no difference
-  bool has_effect = true;     ///< false: accepted, since it cannot change the picture
-  std::optional<bool> only{}; ///< a switch that may only be given as what it is by default
-  std::string departure = {}; ///< of the fallback from Mitsuba's own, as a warning; empty: none
+  std::string name;              ///< Name attribute, or "<film>" for a nested plugin, which needs no name.
+  std::string type, unit;        ///< Names of type and unit in the reference.
+  std::vector<std::string> tags; ///< Elements that may contain the parameter.
+  std::string meaning;           ///< Description.
+  std::string fallback = "-";    ///< Value if the parameter is omitted; "-": it is required.
+  std::string lajolla = {};      ///< Fallback in the dialect lajolla; empty: the same.
+  bool has_effect = true;        ///< False: accepted without effect on the image.
+  std::optional<bool> only{};    ///< A switch that may only have this value, its default.
+  std::string departure = {};    ///< Warning: how the fallback differs from the default of Mitsuba. Empty: equal.
   std::string mitsuba_alternative =
-      {}; ///< of a parameter that lajolla alone has: what to say in Mitsuba; empty: no such one
+      {}; ///< For a parameter that only lajolla has: the equivalent in Mitsuba; empty: Mitsuba has the parameter.
   std::string lajolla_alternative =
-      {}; ///< of one that lajolla leaves out, as a warning: what to say there; empty: no such one
+      {}; ///< For a parameter that lajolla ignores: the equivalent in lajolla, as a warning; empty: lajolla has it.
 
+  /// Whether the parameter is a nested plugin.
   bool nested() const { return name.starts_with('<'); }
   /// Whether a child of a plugin is this parameter.
   bool matches(const XmlElement& child) const;
   /// The child of a plugin that is this parameter, or null.
-  ///   throws : Error for a second one and for another kind of element
+  ///   throws : Error for a second such child, and for a child with another tag.
   const XmlElement* find(const XmlElement& plugin) const;
-  /// Of what is given: warns where the dialect leaves it out.
-  ///   throws : Error where the dialect does not have it
+  /// Checks the dialect for a given parameter. Warns if the dialect ignores it.
+  ///   throws : Error if the dialect does not have the parameter.
   void require_dialect(const XmlElement& given, Context& context) const;
 };
 
-/// What is read, in the coordinates of the scene: a transform leads to these, nothing else depends on them.
+/// Converts a value to the coordinates of the scene. Only transforms depend on the origin.
 template <class T> T in_scene(T value, const Context&) { return value; }
+/// Moves a transform to the origin of the scene.
 inline Transform in_scene(Transform t, const Context& context) {
   t.translation -= context.origin();
   return t;
 }
 
-/// A parameter whose value is a T.
+/// A parameter with values of type T.
 template <class T> struct Parameter {
-  Declaration declared;
-  std::function<T(const XmlElement& given, Context& context)> parse;
-  std::optional<T> fallback, lajolla_fallback;
+  Declaration declared;                                              ///< Declaration of the parameter.
+  std::function<T(const XmlElement& given, Context& context)> parse; ///< Reads the value from an element.
+  std::optional<T> fallback, lajolla_fallback;                       ///< Values if the parameter is omitted.
 
-  /// This value where the parameter is not given; `text` is what the reference says of it.
+  /// The parameter with a fallback. `text` describes the fallback in the reference.
   Parameter with_default(T value, const std::string& text) const {
     Parameter p = *this;
     p.fallback = std::move(value);
     p.declared.fallback = text;
     return p;
   }
-  /// The value in lajolla's dialect where it is not given.
+  /// The parameter with another fallback in the dialect lajolla.
   Parameter with_lajolla_default(T value, const std::string& text) const {
     Parameter p = *this;
     p.lajolla_fallback = std::move(value);
     p.declared.lajolla = text;
     return p;
   }
-  /// The same, refused but in lajolla's dialect; `instead` is what Mitsuba has.
+  /// The parameter, accepted in the dialect lajolla only. `instead` is the equivalent in Mitsuba.
   Parameter lajolla_only(const std::string& instead) const {
     Parameter p = *this;
     p.declared.mitsuba_alternative = instead;
     return p;
   }
-  /// The same, with a warning in lajolla's dialect, that it counts here and not there; `instead` is what lajolla has.
+  /// The parameter, with a warning in the dialect lajolla that lajolla itself ignores it. `instead` is the equivalent
+  /// in lajolla.
   Parameter ignored_by_lajolla(const std::string& instead) const {
     Parameter p = *this;
     p.declared.lajolla_alternative = instead;
     return p;
   }
 
-  /// Its value for a plugin.
+  /// The value of the parameter for a plugin.
   T read(const XmlElement& plugin, Context& context) const {
     if (const XmlElement* given = declared.find(plugin)) {
       declared.require_dialect(*given, context);
@@ -92,40 +95,50 @@ template <class T> struct Parameter {
   }
 };
 
-/// Without a fallback a parameter must be given.
+/// A required number.
 Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning);
+/// A number with a fallback.
 Parameter<double> number(const std::string& name, const std::string& unit, double fallback, const std::string& meaning);
+/// An integer.
 Parameter<int> integer(const std::string& name, const std::string& meaning, int fallback);
+/// A boolean.
 Parameter<bool> boolean(const std::string& name, const std::string& meaning, bool fallback = false);
+/// The path of a file, relative to the scene file.
 Parameter<std::string> file(const std::string& name, const std::string& meaning);
+/// A point or vector.
 Parameter<Vec3d> point(const std::string& name, const std::string& meaning, const Vec3d& fallback);
+/// A required colour.
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning);
+/// A colour with a fallback.
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning,
                           const Spectrum& fallback);
-/// The share of light that something does not keep.
+/// A reflectance or transmittance in [0, 1].
 Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback);
-/// A colour, or a texture where it varies.
+/// A constant colour or a texture.
 using Reflectance = std::variant<Spectrum, Texture>;
+/// A reflectance in [0, 1], constant or from a texture.
 Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
                                               const Spectrum& fallback);
-/// A file with a picture, relative to the scene file.
+/// An image file, relative to the scene file.
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning);
+/// A transform.
 Parameter<Transform> transform(const std::string& name, const std::string& meaning);
 
-/// One word of a list, as its place in the list.
+/// A required word of a list, as its index in the list.
 Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
                               const std::string& meaning);
+/// A word of a list, as its index in the list, with a fallback.
 Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
                               const std::string& meaning, std::size_t fallback);
 
-/// A parameter that may be left out, without a value of its own then.
+/// The parameter without a fallback value: nullopt if it is omitted.
 template <class T> Parameter<std::optional<T>> optional(const Parameter<T>& p) {
   return Parameter<std::optional<T>>{p.declared, p.parse, {}, {}}.with_default(std::nullopt, "none");
 }
 
-/// Accepted without effect, since it cannot change the picture.
+/// A parameter accepted without effect, because it cannot change the image.
 Declaration no_effect(const std::string& name, const std::string& why);
-/// A switch of which only the default is supported.
+/// A switch of which only the default value is supported.
 Declaration only(bool value, const std::string& name, const std::string& meaning);
 
 } // namespace render::mitsuba

@@ -1,53 +1,57 @@
 #pragma once
-/// The tables of plugins, one for each kind. A new plugin is a row with its function in the kind's .cpp.
+/// The tables of plugins, one per kind. A new plugin is a row with its function in the .cpp file of its kind.
 
 #include <render/io/mitsuba/plugin.h>
 
 namespace render::mitsuba {
 
-/// A shape with what covers it.
+/// A shape with its material, emission and interior.
 struct ShapeDescription {
-  Shape shape;
-  std::optional<BsdfId> bsdf;
-  std::optional<Emission> emission;
-  bool importance_target;
-  std::optional<HomogeneousMedium> interior;
-  std::string missing_uv_reason; ///< why a mesh has no texture coordinates
+  Shape shape;                               ///< The geometry.
+  std::optional<BsdfId> bsdf;                ///< Its BSDF; nullopt: the default.
+  std::optional<Emission> emission;          ///< Its emission, if it is a light.
+  bool importance_target;                    ///< Whether guiding strategies also sample directions to the shape.
+  std::optional<HomogeneousMedium> interior; ///< The medium inside, if there is one.
+  std::string missing_uv_reason;             ///< Why a mesh has no texture coordinates.
 };
 
+/// Parameters of a film.
 struct FilmSettings {
-  int width, height;
-  Filter filter;
+  int width, height; ///< Size [pixels].
+  Filter filter;     ///< Reconstruction filter.
 };
 
+/// Parameters of an integrator.
 struct IntegratorSettings {
-  int max_depth = -1; ///< longest path in edges, -1 for no limit
-  Aov aov = Aov::radiance;
+  int max_depth = -1;      ///< Longest path in edges; -1: no limit.
+  Aov aov = Aov::radiance; ///< Output of the integrator.
 };
 
+/// Parameters of a sensor.
 struct SensorSettings {
-  ThinLens camera;
-  FilmSettings film;
-  int spp;
+  ThinLens camera;   ///< The camera.
+  FilmSettings film; ///< Its film.
+  int spp;           ///< Samples per pixel.
 };
 
-const Plugins<IntegratorSettings>& integrator_plugins();
-const Plugins<SensorSettings>& sensor_plugins();
-const Plugins<FilmSettings>& film_plugins();
-const Plugins<Filter>& filter_plugins();
-const Plugins<int>& sampler_plugins(); ///< samples per pixel
-const Plugins<Material>& bsdf_plugins();
-const Plugins<Texture>& texture_plugins();
-const Plugins<ShapeDescription>& shape_plugins();
-const Plugins<Emission>& surface_emitter_plugins(); ///< inside a shape
-const Plugins<HomogeneousMedium>& medium_plugins(); ///< inside a shape
-const Plugins<Light>& emitter_plugins();            ///< of the scene
+const Plugins<IntegratorSettings>& integrator_plugins(); ///< Rows of <integrator>.
+const Plugins<SensorSettings>& sensor_plugins();         ///< Rows of <sensor>.
+const Plugins<FilmSettings>& film_plugins();             ///< Rows of <film>.
+const Plugins<Filter>& filter_plugins();                 ///< Rows of <rfilter>.
+const Plugins<int>& sampler_plugins();            ///< Rows of <sampler>; the value is the number of samples per pixel.
+const Plugins<Material>& bsdf_plugins();          ///< Rows of <bsdf>.
+const Plugins<Texture>& texture_plugins();        ///< Rows of <texture>.
+const Plugins<ShapeDescription>& shape_plugins(); ///< Rows of <shape>.
+const Plugins<Emission>& surface_emitter_plugins(); ///< Rows of <emitter> inside a shape.
+const Plugins<HomogeneousMedium>& medium_plugins(); ///< Rows of <medium> inside a shape.
+const Plugins<Light>& emitter_plugins();            ///< Rows of <emitter> in the scene.
 
-/// Every kind with its rows, in the order of the reference.
+/// One kind of plugin with its rows.
 struct Kind {
-  std::string tag, meaning;
-  std::vector<PluginText> rows;
+  std::string tag, meaning;     ///< Tag of the kind, and its description.
+  std::vector<PluginText> rows; ///< Its plugins.
 };
+/// All kinds in the order of the reference.
 std::vector<Kind> all_plugins();
 
 } // namespace render::mitsuba

@@ -63,7 +63,7 @@ Vec3d hexadecimal(const XmlElement& e, const std::string& text) {
   return v;
 }
 
-// Pairs wavelength:value, with commas or blanks between them, and blanks about the colons.
+// Converts wavelength:value pairs, separated by commas or blanks. Blanks may surround the colons.
 Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant, Extrapolation extrapolation) {
   std::vector<SpectralSample> samples;
   const auto place = [&](std::size_t i) { return std::min(i, text.size()); };

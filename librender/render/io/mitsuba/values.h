@@ -1,5 +1,5 @@
 #pragma once
-/// What one element of a scene file says: <float value="1"/>, <rgb value="#ff8000"/>, <transform> and the like.
+/// Values of single elements of a scene file: <float value="1"/>, <rgb value="#ff8000"/>, <transform> and so on.
 
 #include <render/core/transform.h>
 #include <render/io/spectrum.h>
@@ -10,27 +10,31 @@
 
 namespace render::mitsuba {
 
-/// Every function throws Error "scene.xml:14: <float>: ..." for what cannot be read.
+/// A number. Like all functions below, it throws Error "scene.xml:14: <float>: ..." for invalid input.
 
 double parse_number(const XmlElement& element, const std::string& text);
-/// Numbers separated by commas or blanks, as many as there are.
+/// A list of numbers of any length, separated by commas or blanks.
 std::vector<double> parse_numbers(const XmlElement& element, const std::string& text);
 
+/// The number in the attribute `value`.
 double number_of(const XmlElement& element);
+/// The integer in the attribute `value`.
 int integer_of(const XmlElement& element);
+/// true or false in the attribute `value`.
 bool boolean_of(const XmlElement& element);
-/// x, y, z attributes, those that are missing 0; or three numbers, or one for all, as the value.
+/// A vector from the attributes x, y, z (0 if missing), or from three numbers, or one for all, in the attribute
+/// `value`.
 Vec3d vector_of(const XmlElement& element);
-/// Linear sRGB of <rgb> (linear) or <srgb> (by the sRGB curve), each as one number, three or #rrggbb (255ths), of
-/// <float>, a grey as in Mitsuba 3, and of <spectrum>, as one number or wavelength:value pairs, with values >= 0 and
-/// wavelengths that reach into 400..700 nm. Unless these are held, as in lajolla, colours that the screen does not have
-/// become the nearest >= 0.
+/// Linear sRGB of a colour element. <rgb> is linear and <srgb> follows the sRGB curve; both accept one number, three
+/// numbers or #rrggbb (255ths). <float> is grey, as in Mitsuba 3. <spectrum> is one number or wavelength:value pairs,
+/// with values >= 0 and wavelengths that overlap 400..700 nm. Colours of spectra outside the sRGB gamut are clipped to
+/// >= 0, except with constant extrapolation, as in lajolla.
 Spectrum color_of(const XmlElement& element, Extrapolation extrapolation = Extrapolation::constant);
-/// The same of what reflects: wavelength:value pairs are seen in that light, and under D65 colours that the screen does
-/// not have become the nearest in [0, 1], as in Mitsuba 3.
+/// Like color_of, for a reflectance. Wavelength:value pairs are converted under the given illuminant. Under D65 colours
+/// outside the gamut are clipped to [0, 1], as in Mitsuba 3.
 Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant,
                         Extrapolation extrapolation = Extrapolation::constant);
-/// lookAt, translate, scale, rotate and matrix, applied in the order in which they stand.
+/// The product of lookAt, translate, scale, rotate and matrix, applied in the order of the file.
 Transform transform_of(const XmlElement& element);
 
 } // namespace render::mitsuba

@@ -17,13 +17,13 @@ Bsdf make_conductor(std::size_t, const Spectrum& reflectance) { return FuzzyMeta
 
 Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return FuzzyMetal(albedo, Float(fuzz)); }
 
-/// Root mean square slope of facets, and whether the file says it.
+/// Root mean square slope of microfacets, and whether the file contains it.
 struct Slope {
   double alpha;
   bool is_given = false;
 };
 
-// lajolla's roughness is the root of alpha; between 0 and .01 it is .01 there.
+// The roughness of lajolla is the square root of alpha. Like lajolla, replaces roughness in (0, .01) by .01.
 double alpha_of(const Slope& slope, const std::optional<double>& roughness) {
   mc::require(!slope.is_given || !roughness, "give alpha or roughness, its square root, not both");
   if (!roughness) return slope.alpha;
@@ -37,7 +37,7 @@ Float relative_index(double inside, double outside) {
   return Float(inside / outside);
 }
 
-// Of a paint's colour what does not vary, and what does.
+// Constant part of a reflectance: a placeholder if it is a texture.
 Spectrum constant_of(const Reflectance& r) {
   const auto* color = std::get_if<Spectrum>(&r);
   return color ? *color : Spectrum(Spectrum::Constant(Float(0.5)));
@@ -131,7 +131,8 @@ Parameter<Slope> slope() {
           {}};
 }
 Parameter<Slope> alpha() { return slope().with_default({0.1}, "0.1").with_lajolla_default({0.01}, "0.01"); }
-/// lajolla's smooth materials are its rough ones with another default; `rough` is Mitsuba's one.
+/// Slope parameter of smooth materials. The smooth materials of lajolla are its rough ones with another default;
+/// `rough` is the rough plugin of Mitsuba.
 Parameter<Slope> alpha_of_smooth(const std::string& rough) {
   return slope().with_default({0}, "0").lajolla_only(rough);
 }
@@ -167,7 +168,7 @@ struct Medium {
   std::string_view name;
   double index;
 };
-// At 589 nm, between 0 and 20 degrees Celsius. Source: Mitsuba 0.6, most of them there from [Hecht02].
+// At 589 nm, between 0 and 20 degrees Celsius. Source: Mitsuba 0.6, which took most of them from [Hecht02].
 constexpr Medium media[] = {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
                             {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
                             {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},

@@ -15,7 +15,7 @@ GradientBackground make_gradient(const Spectrum& bottom, const Spectrum& top) {
 }
 
 Environment make_envmap(const Transform& to_world, double scale, const std::shared_ptr<const Texels>& texels) {
-  Transform turn; // where it stands says nothing of what is infinitely far away
+  Transform turn; // a translation has no effect on an infinitely distant light
   turn.linear = to_world.linear;
   return Environment(texels, turn, scale);
 }

@@ -77,7 +77,7 @@ std::string reference() {
   for (const Kind& kind : all_plugins()) {
     text += fmt::format("\n## {}\n\nThe {}: {}.\n", kind.tag, kind.tag, kind.meaning);
     std::string names;
-    for (std::size_t i = 0; i < kind.rows.size(); ++i) { // neighbours that say the same share a table
+    for (std::size_t i = 0; i < kind.rows.size(); ++i) { // adjacent plugins with equal tables share one table
       names += fmt::format("{}**{}**", names.empty() ? "\n" : ", ", kind.rows[i].name);
       const std::string body = body_of(kind.rows[i]);
       if (i + 1 < kind.rows.size() && body_of(kind.rows[i + 1]) == body) continue;

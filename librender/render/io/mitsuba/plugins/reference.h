@@ -1,11 +1,11 @@
 #pragma once
-/// The reference of the scene format, made of the tables that read it.
+/// The reference of the scene format, generated from the tables of the reader.
 
 #include <string>
 
 namespace render::mitsuba {
 
-/// Every plugin with its parameters, their types, units and defaults, as Markdown.
+/// All plugins with their parameters, types, units and defaults, as Markdown.
 std::string reference();
 
 } // namespace render::mitsuba

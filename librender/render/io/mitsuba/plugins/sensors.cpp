@@ -5,7 +5,7 @@ namespace render::mitsuba {
 namespace {
 
 constexpr int default_spp = 4;
-constexpr std::size_t diagonal = 4; // of fovAxis
+constexpr std::size_t diagonal = 4; // index in fovAxis
 
 SensorSettings make_sensor(const Transform& to_world, double fov, std::size_t axis, double near, double far,
                            const std::optional<double>& focus_distance, const FilmSettings& film, int spp,
@@ -15,7 +15,7 @@ SensorSettings make_sensor(const Transform& to_world, double fov, std::size_t ax
   return {ThinLens(to_world, {axes[axis], fov, radius, focus, near, far}), film, spp};
 }
 
-// The diagonal field of view of a lens before 35 mm film, 36 mm by 24 mm, in degrees.
+// Diagonal field of view of a lens on 35 mm film, 36 mm by 24 mm [degrees].
 double diagonal_fov(double focal_length) {
   return 360 / mc::pi<double> * std::atan(std::hypot(36.0, 24.0) / (2 * focal_length));
 }
@@ -43,14 +43,14 @@ SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t 
 
 Parameter<double> fov() { return number("fov", "degrees", "field of view along fovAxis, in (0, 180)"); }
 
-// "50mm"
+// Reads a length such as "50mm".
 double millimetres_of(const XmlElement& e, Context&) {
   std::string text = e.attribute("value");
   if (text.ends_with("mm")) text.resize(text.size() - 2);
   return parse_number(e, text);
 }
 
-// A row for a camera, with the parameters that all cameras have.
+// A row for a camera, with the parameters common to all cameras.
 template <class Make, class Fov, class... V>
 Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make, const Parameter<Fov>& fov,
                                      const Parameter<V>&... parameters) {
@@ -74,7 +74,7 @@ FilmSettings make_film(int width, int height, const Filter& filter, double, doub
   return {width, height, filter};
 }
 
-// Of what would change Mitsuba's picture only the default is done; lajolla does not look at it.
+// Restricts a parameter that would change the image of Mitsuba to its default. lajolla ignores the parameter.
 template <class T> Parameter<T> only_default(const Parameter<T>& p, const std::string& remedy) {
   Parameter<T> only = p;
   only.declared.meaning += "; only this is supported: " + remedy;
@@ -88,7 +88,7 @@ template <class T> Parameter<T> only_default(const Parameter<T>& p, const std::s
   return only;
 }
 
-// Pictures are colours; there is no alpha to leave out.
+// Images contain colours only, so there is no alpha channel to omit.
 Parameter<std::size_t> pixel_format() {
   auto p = choice("pixelFormat", {"rgb", "rgba"}, "colours; there is no alpha in them", 0);
   p.parse = [of_mitsuba = p.parse](const XmlElement& e, Context& context) {
@@ -119,7 +119,7 @@ Plugin<FilmSettings> film_plugin(std::string name) {
       .accepting(ignored);
 }
 
-// Of a filter whose size is its radius in Mitsuba, and its width in lajolla.
+// Radius of a filter. Its size parameter is the radius in Mitsuba and the width in lajolla.
 double radius_of(const std::optional<double>& radius, const std::optional<double>& width, double fallback) {
   mc::require(!radius || !width, "give width or radius, its half, not both");
   return width ? *width / 2 : radius.value_or(fallback);

@@ -11,39 +11,40 @@ const std::string scene_units = "scene units";
 
 struct PlacedShape {
   Shape shape;
-  std::string missing_uv_reason; ///< why a mesh has no texture coordinates
+  std::string missing_uv_reason; ///< Why a mesh has no texture coordinates.
   PlacedShape(Shape s, std::string why = {}) : shape(std::move(s)), missing_uv_reason(std::move(why)) {}
 };
 
 /// How the normals of a mesh are made.
 struct Smoothing {
   bool is_flat;
-  std::optional<double> max_angle; ///< between faces [degrees]
+  std::optional<double> max_angle; ///< Largest angle between smoothed faces [degrees].
 };
 
-PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, const Smoothing& smoothing) {
+PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world,
+                   const Smoothing& smoothing) {
   return mc::with_context(name, [&] {
     const auto& [is_flat, max_angle] = smoothing;
     mc::require(!is_flat || !max_angle, "faceNormals and maxSmoothAngle contradict each other; give one");
     const std::string& why = mesh.missing_uv_reason;
     return PlacedShape(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
-                            : to_shape(mesh, to_world, is_flat),
-                  why.empty() ? why : fmt::format("{}: {}", name, why));
+                                 : to_shape(mesh, to_world, is_flat),
+                       why.empty() ? why : fmt::format("{}: {}", name, why));
   });
 }
 
 PlacedShape make_obj(const std::string& path, const Transform& to_world, bool face_normals,
-                const std::optional<double>& max_angle) {
+                     const std::optional<double>& max_angle) {
   return placed(path, read_obj(path), to_world, {face_normals, max_angle});
 }
 
 PlacedShape make_ply(const std::string& path, const Transform& to_world, bool face_normals,
-                const std::optional<double>& max_angle) {
+                     const std::optional<double>& max_angle) {
   return placed(path, read_ply(path), to_world, {face_normals, max_angle});
 }
 
 PlacedShape make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
-                       const std::optional<double>& max_angle, int index) {
+                            const std::optional<double>& max_angle, int index) {
   return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world,
                 {face_normals, max_angle});
 }
@@ -59,7 +60,7 @@ Shape make_cube(const Transform& to_world) {
   return TriangleMesh::box(to_world);
 }
 
-/// Where a sphere is before toWorld turns and moves it, and whether that also scales it.
+/// Centre of a sphere before toWorld rotates and translates it, and whether toWorld also scales the centre.
 struct Center {
   Vec3d at = Vec3d::Zero();
   bool is_scaled = true;
@@ -122,7 +123,7 @@ template <class Make> struct Covered {
   }
 };
 
-// A row for a geometry, with the parameters that all shapes have.
+// A row for a geometry, with the parameters common to all shapes.
 template <class Make, class... V>
 Plugin<ShapeDescription> shape_plugin(std::string name, std::string meaning, Make make,
                                       const Parameter<V>&... parameters) {
@@ -176,7 +177,7 @@ Parameter<std::optional<double>> max_smooth_angle() {
   return p;
 }
 
-// A row for a mesh in a file, with the parameters that all of those have.
+// A row for a mesh file, with the parameters common to all mesh files.
 template <class Make, class... V>
 Plugin<ShapeDescription> mesh_plugin(std::string name, std::string meaning, Make make,
                                      const Parameter<V>&... parameters) {

@@ -4,7 +4,7 @@ namespace render::mitsuba {
 
 namespace {
 
-// How a shape's u and v are moved before a texture is looked up there.
+// Scale and offset of the texture coordinates of a shape.
 struct Moved {
   Vec2d scale = Vec2d::Ones(), offset = Vec2d::Zero();
 };
@@ -58,7 +58,7 @@ template <class Make> struct OnSurface {
   }
 };
 
-// A row for a texture, with the parameters that all textures have.
+// A row for a texture, with the parameters common to all textures.
 template <class Make, class... V>
 Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
   const auto repeats = [](const std::string& of, const std::string& along) {
