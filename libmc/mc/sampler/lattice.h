@@ -35,8 +35,8 @@ class Lattice {
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
     const std::uint64_t shift = hash(seed_, dim);
     if (dim >= dimensions) return mix64(shift ^ index);
-    const std::uint32_t x = reverse_bits(static_cast<std::uint32_t>(index)) * generator[dim]; // 32-bit overflow takes
-                                                                                              // the fraction
+    // 32-bit overflow takes the fraction
+    const std::uint32_t x = reverse_bits(static_cast<std::uint32_t>(index)) * generator[dim];
     return (std::uint64_t{x} << 32) + shift;
   }
 

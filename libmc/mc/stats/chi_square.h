@@ -27,9 +27,9 @@ struct ChiSquare {
   double statistic = 0; ///< Sum of (observed - expected)^2 / expected over the pooled cells.
   double dof = 0;       ///< Number of cells after pooling, minus 1.
   double p = 1;         ///< P(X > statistic).
-  double detectable =
-      0; ///< Detected effect size: relative error of random sign in every expected count that a test at `alpha` detects
-         ///< with probability .99.
+  /// Detected effect size: relative error of random sign in every expected count that a test at `alpha` detects with
+  /// probability .99.
+  double detectable = 0;
 };
 
 /// Tests counts against expected counts with the same total.

@@ -44,7 +44,8 @@ double error_kurtosis(std::span<const double> estimates, double truth) {
   return ErrorMoments(estimates, truth).kurtosis();
 }
 
-// The mean of r squares of kurtosis k has relative variance (k - 1) / r. Chi-square with d degrees of freedom has 2 / d.
+// The mean of r squares of kurtosis k has relative variance (k - 1) / r.
+// Chi-square with d degrees of freedom has 2 / d.
 double effective_error_count(double r, double kurtosis) {
   return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r;
 }

@@ -13,8 +13,8 @@ struct RmsError {
   double rms = 0;        ///< Root-mean-square error.
   double lo = 0, hi = 0; ///< 95 % confidence interval of the RMS error.
   double seconds = 0;    ///< CPU seconds of one repetition, if the caller measures them.
-  bool is_bound = false; ///< Whether rms = hi is only an upper bound, because the reference value is not accurate
-                         ///< enough.
+  /// Whether rms = hi is only an upper bound, because the reference value is not accurate enough.
+  bool is_bound = false;
 };
 
 /// Binary exponent of the largest |x|, or 0 if all are 0. Squares of ldexp(x, -exponent) do not overflow, and no

@@ -17,8 +17,8 @@ namespace mc::detail {
 struct IntegrandDiagnostics {
   OctaveHistogram values = {};  ///< Values that enter the mean.
   TailIndexEstimator tail = {}; ///< Tail of f; empty if the values are f.
-  std::array<TailIndexEstimator, 2> offset_tails =
-      {}; ///< Tails of f minus the bounds IntegrationRun::tail_offsets; empty if these are 0.
+  /// Tails of f minus the bounds IntegrationRun::tail_offsets; empty if these are 0.
+  std::array<TailIndexEstimator, 2> offset_tails = {};
   /// Values of f at uniform points, if these are only a part of a mixture.
   OctaveHistogram uniform_values = {};
   double lo = infinity<double>, hi = -infinity<double>; ///< Range of f, if points are drawn from a density.

@@ -7,11 +7,11 @@
 namespace mc::detail {
 
 namespace {
-// The deviations from their mean as a vector of length 1; zeros where they are rounding.
+// Deviations from the mean as a unit vector; zeros if they are only rounding errors.
 std::vector<double> direction(std::vector<double> x) {
   double largest = 0;
   for (const double v : x) largest = std::max(largest, std::abs(v));
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0; // so that no square overflows or vanishes
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0; // scales so that no square overflows or underflows
   for (double& v : x) v = std::ldexp(v, -exponent);
   const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
   double square = 0;
@@ -41,7 +41,7 @@ Correlations correlations(const std::vector<std::vector<double>>& means) {
 Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b,
                                  double share) {
   const std::size_t n = a.size();
-  // What either contributes to the error of the two.
+  // Share of each mean in the combined error.
   std::vector<double> from_a(n), from_b(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double error = std::hypot((1 - share) * a[i].error, share * b[i].error);

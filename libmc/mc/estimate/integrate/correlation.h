@@ -1,5 +1,5 @@
 #pragma once
-/// How the errors of several outputs go together.
+/// Correlations of the errors of several outputs.
 
 #include <mc/estimate/integrate/mean.h>
 
@@ -7,13 +7,13 @@
 
 namespace mc::detail {
 
-/// Correlations of the outputs' errors, row by row: 1 on the diagonal.
+/// Correlation matrix of the errors of the outputs, row by row, with 1 on the diagonal.
 using Correlations = std::vector<double>;
 
-/// Those of means[output][replicate]; 0 beside an output whose replicates are equal.
+/// Correlations of means[output][replicate]; 0 for outputs with equal replicates.
 Correlations correlations(const std::vector<std::vector<double>>& means);
 
-/// Those of combine_independent(a, b, share), where a and b are independent.
+/// Correlations of combine_independent(a, b, share) for independent a and b.
 Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b,
                                  double share);
 

@@ -1,5 +1,5 @@
-// The functions of <mc/estimate/integrate.h> that integrate. They stand beside the methods that they choose from: the
-// methods are built on what the folder above holds, which therefore includes nothing of this one.
+// Functions of <mc/estimate/integrate.h> that integrate. They are in this folder because they use its methods, which
+// depend on the folder above and not vice versa.
 
 #include <mc/core/error.h>
 #include <mc/estimate/integrate.h>
@@ -36,7 +36,7 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
   require(o.density->dim() == dim, "integrate: the density has {} dimensions, the integrand {}", o.density->dim(), dim);
 }
 
-// What the rounds said of one output.
+// Results of all rounds for one output.
 std::vector<IntegrateRound> rounds_of(const IntegrationRun& run, std::size_t output) {
   std::vector<IntegrateRound> all;
   for (const detail::Round& r : run.rounds) {

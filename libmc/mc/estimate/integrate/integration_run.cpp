@@ -9,24 +9,24 @@
 namespace mc::detail {
 
 namespace {
-constexpr std::uint64_t chunk = 4096;  // points per task: fixed, so sums do not depend on the number of threads
+constexpr std::uint64_t chunk = 4096;  // points per task: fixed, so that sums do not depend on the number of threads
 constexpr std::uint64_t block = 256;   // points drawn at once
-constexpr double thread_start = 5e-4;  // seconds of work that are worth waking other threads
-constexpr double most_infinite = 1e-3; // of the volume: more is no singularity
-constexpr double few_infinite = 8;     // points
+constexpr double thread_start = 5e-4;  // seconds of work above which other threads pay off
+constexpr double most_infinite = 1e-3; // largest volume of infinite values; a larger one is no singularity
+constexpr double few_infinite = 8;     // points always allowed to be infinite
 
-// How the values at one point count: value * factor - control_coefficients * shift.
+// Weight of the values at one point: value * factor - control_coefficients * shift.
 struct Weight {
   double factor = 1, shift = 0;
 };
 
-// Moves the point to where the proposal wants it.
+// Maps the point to the proposal and returns its weight.
 Weight draw(const Proposal& proposal, std::span<double> point, std::span<double> scratch) {
   if (!proposal.density) return {};
   const AdaptedDensity& p = *proposal.density;
   const bool uniform = proposal.part == Proposal::Part::uniform;
   const double jacobian = uniform ? 1 / p.density(point, scratch) : p.map(point);
-  if (std::isinf(jacobian)) return {1 / Proposal::uniform_share, 0}; // where only the uniform part comes
+  if (std::isinf(jacobian)) return {1 / Proposal::uniform_share, 0}; // only the uniform part reaches this point
   if (proposal.part == Proposal::Part::all) return {jacobian, 0};
   const double p_over_q = 1 / (Proposal::uniform_share * jacobian + (1 - Proposal::uniform_share));
   return {jacobian * p_over_q, p_over_q};
@@ -84,7 +84,7 @@ Sums IntegrationRun::evaluate(const PointSet& set, std::uint64_t first, std::uin
         sums.diagnostics[k].add_to_range(column);
         for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
       }
-      OctaveHistogram sizes; // of the values themselves: what is subtracted hides zeros and equal values
+      OctaveHistogram sizes; // of the values before subtraction, which would hide zeros and equal values
       sizes.add(column);
       sums.diagnostics[k].values.merge(sizes);
       double largest = std::max(std::abs(sizes.lo()), std::abs(sizes.hi()));
@@ -108,7 +108,7 @@ std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets
     const std::uint64_t begin = first + i % chunks * chunk;
     parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), proposal, keep);
   };
-  // Threads start when they pay: the first task is timed.
+  // Other threads start only if they pay off, judged by the time of the first task.
   const auto begin = std::chrono::steady_clock::now();
   task(0);
   const std::chrono::duration<double> once = std::chrono::steady_clock::now() - begin;
@@ -116,7 +116,7 @@ std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets
   parallel_for(parts.size() - 1, pays ? options.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   calls += count * sets.size();
-  // A few points do not tell how much volume they stand for.
+  // A few points do not determine the volume that they represent.
   const double most = few_infinite + most_infinite * static_cast<double>(count * sets.size());
   for (std::size_t k = 0; k < outputs; ++k) {
     double infinite = 0;
@@ -134,11 +134,11 @@ std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets
   return results;
 }
 
-// What has no tail has its largest value close to the quartile.
+// Without a tail, the largest value is close to the quartile.
 void IntegrationRun::find_tail_offsets(const std::vector<Sums>& first) {
   constexpr double far = 4;
   tail_offsets.resize(outputs);
-  if (options.density) return; // the first points may be drawn from it
+  if (options.density) return; // the first points may be drawn from the given density
   for (std::size_t k = 0; k < outputs; ++k) {
     std::vector<double> values;
     for (const Sums& s : first) values.insert(values.end(), s.profile.values(k).begin(), s.profile.values(k).end());
@@ -150,7 +150,7 @@ void IntegrationRun::find_tail_offsets(const std::vector<Sums>& first) {
     if (above) tail_offsets[k] = {2 * lo - upper, lo};
     else if (below) tail_offsets[k] = {2 * hi - quarter, hi};
     const auto [a, b] = tail_offsets[k];
-    if (!(std::min(a, b) > 0 || std::max(a, b) < 0)) tail_offsets[k] = {}; // all of it may be tail
+    if (!(std::min(a, b) > 0 || std::max(a, b) < 0)) tail_offsets[k] = {}; // the tail may contain the whole range
   }
 }
 
@@ -207,8 +207,8 @@ Means IntegrationRun::means(const std::vector<Sums>& replicates, std::uint64_t p
       histories[k].add_axis_jump(profile.jump(k, static_cast<std::size_t>(dim), replicates.size()));
     all.push_back(mean_of_replicates(values[k], static_cast<double>(points), diagnostics, histories[k]));
     if (k < primary_outputs())
-      all.back().unsampled_tail_bound =
-          unsampled_tail_bound(diagnostics, all.back().error); // no density follows what is only watched
+      // densities do not adapt to auxiliary outputs
+      all.back().unsampled_tail_bound = unsampled_tail_bound(diagnostics, all.back().error);
   }
   return all;
 }

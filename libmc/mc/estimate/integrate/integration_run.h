@@ -1,5 +1,5 @@
 #pragma once
-/// A run of integrate(): evaluates the integrand on sets of points and sums what it gives.
+/// A run of integrate(): evaluates the integrand on point sets and accumulates sums.
 
 #include <mc/estimate/adapt/adapted_density.h>
 #include <mc/estimate/integrate.h>
@@ -16,105 +16,115 @@
 
 namespace mc::detail {
 
-/// Thrown by a run that was cancelled; never leaves integrate().
+/// Thrown inside a cancelled run; never leaves integrate().
 struct Cancelled {};
 
-/// What points are drawn from.
-///   all : the density p that was learned; a value is f / p
-///   a part of the mixture q = 7 / 8 p + 1 / 8 of that and the uniform density, so that no value exceeds 8 f where p is
-///   wrong: a value is (f - c p) / q, whose mean under q is that of f but for c. Near c p, where p is right, the
-///   mixture costs next to nothing [OwenZhou00].
+/// Sampling density of points: uniform, a learned density p, or one part of a mixture with it.
+///   all : The density p. A value is f / p.
+///   density, uniform : A part of the mixture q = 7/8 p + 1/8 uniform. A value is (f - c p) / q, so no value exceeds 8
+///                      f where p is too low. Its mean under q is the integral of f minus c. If f is close to c p, the
+///                      mixture costs almost nothing [OwenZhou00].
 struct Proposal {
   enum class Part { all, density, uniform };
+  /// Share of the uniform part in the mixture.
   static constexpr double uniform_share = 0.125;
 
-  std::shared_ptr<const AdaptedDensity> density = {}; ///< none: uniform
-  std::vector<double> control_coefficients = {};      ///< c of each output
-  Part part = Part::all;
+  std::shared_ptr<const AdaptedDensity> density = {}; ///< Null for uniform points.
+  std::vector<double> control_coefficients = {};      ///< Coefficient c of each output.
+  Part part = Part::all;                              ///< Part of the mixture.
 };
 
-/// One value or several, of one point or many.
+/// An integrand with one or several outputs, for one or many points; exactly one pointer is set.
 struct Integrand {
-  const std::function<double(std::span<const double>)>* one = nullptr;
-  const VectorIntegrand* several = nullptr;
-  const BatchIntegrand* batch = nullptr;
+  const std::function<double(std::span<const double>)>* one = nullptr; ///< One output, one point.
+  const VectorIntegrand* several = nullptr;                            ///< Several outputs, one point.
+  const BatchIntegrand* batch = nullptr;                               ///< Many points.
 
+  /// Whether the function is empty.
   bool empty() const {
     if (one) return !*one;
     if (several) return !*several;
     return !batch->f;
   }
-  /// The values at points, both one after the other.
+  /// Evaluates points, with coordinates and values of each point in sequence.
   void operator()(std::span<const double> points, std::size_t dim, std::span<double> values) const;
 };
 
-/// What is kept of an evaluation beside the sums.
-///   points  : every point, with the values that are not only watched
-///   batches : the moments of 32 batches of the values, whose means correlate as the errors do
+/// Data kept in addition to the sums.
+///   points  : Every point with its values of the primary outputs.
+///   batches : Moments of 32 batches of values. Their means have the correlations of the errors.
 enum class Keep { sums, points, batches };
 
-/// What a round found.
+/// Result of a round.
 struct Round {
-  Method method;
-  bool learning;
-  std::uint64_t calls; ///< of the run, so far
-  Means means;
-  bool independent = false;      ///< of the answer
-  std::vector<double> chi2 = {}; ///< of each output; not a number where nothing was compared
+  Method method;                 ///< Method of the points.
+  bool learning;                 ///< Whether a density was learned from the round.
+  std::uint64_t calls;           ///< Evaluations of the run so far.
+  Means means;                   ///< Means of the outputs.
+  bool independent = false;      ///< Whether it is independent of the answer.
+  std::vector<double> chi2 = {}; ///< For each output; NaN if there is nothing to compare.
 };
 
-/// The integrand, the budget, the clock.
+/// State of a run: integrand, budget and clock.
 struct IntegrationRun {
-  Integrand integrand;
-  std::size_t outputs;
-  int dim;
-  const IntegrateOptions& options;
+  Integrand integrand;             ///< Integrand.
+  std::size_t outputs;             ///< Number of outputs.
+  int dim;                         ///< Number of dimensions.
+  const IntegrateOptions& options; ///< Settings.
+  /// Start of the run.
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-  std::uint64_t calls = 0;
-  std::vector<Round> rounds = {};
-  /// Of each output the constant that its tail, if it has one, is added to and hidden by, between two bounds as the
-  /// first points show it: the least value, or as far below it as the upper quartile is above, where that of a sum with
-  /// x^-1/2 is; or the other way round. 0 where it may be 0, or where there is no tail.
+  std::uint64_t calls = 0;        ///< Evaluations so far.
+  std::vector<Round> rounds = {}; ///< Results of all rounds.
+  /// For each output, two bounds of a constant that is added to its tail and hides it; 0 if it may be 0 or if there is
+  /// no tail. Estimated from the first points. One bound is the smallest value. The other lies below it by its distance
+  /// to the upper quartile, where the constant of a sum with x^-1/2 lies. For a tail of negative values, uses the
+  /// largest value and the lower quartile.
   std::vector<std::array<double, 2>> tail_offsets = {};
+  /// Accumulated chi2 of each output.
   std::vector<double> chi2 = std::vector<double>(outputs), chi2_dof = std::vector<double>(outputs);
 
+  /// Wall time since the start [s].
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+  /// Evaluations left.
   std::uint64_t calls_left() const { return options.max_calls - calls; }
-  /// Outputs that are not only watched.
+  /// Number of outputs that control stopping and adaptation.
   std::size_t primary_outputs() const { return outputs - options.auxiliary_outputs; }
-  /// Calls that may be recorded: 128 MB of points and values.
+  /// Largest number of points that may be recorded, with their values: 128 MB.
   std::uint64_t max_recorded_calls() const {
     return (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + primary_outputs());
   }
 
-  /// Points [first, first + count) of each set; one result per set, with the same bits for any number of threads.
-  ///   throws : Error where the integrand is not finite, with the point; Cancelled
+  /// Evaluates points [first, first + count) of each set. Returns one result per set, with the same bits for any number
+  /// of threads.
+  ///   throws : Error with the point if the integrand is not finite there. Cancelled.
   std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
                                  const Proposal& proposal = {}, Keep keep = Keep::sums);
 
-  /// Whether the baseline sequences, those of stream_id 0, are interlaced. Under a grid they are not: smooth peaks would gain
-  /// by it, but integrands that jump would lose.
+  /// Whether the baseline sequences (stream_id 0) are interlaced. Sequences mapped through a grid are not: interlacing
+  /// helps smooth peaks but hurts integrands with jumps.
   bool uses_interlaced_points() const { return dim <= 2; }
-  /// Replicates [first, last) of the sequences for a stream_id.
+  /// Point sets of replicates [first, last) of the stream `stream_id`.
   std::vector<PointSet> sobol_sets(std::uint64_t stream_id, std::uint32_t first, std::uint32_t last) const;
 
-  /// For each output the mean of every replicate. `uniform` are the sums of the uniform part where the replicates are
-  /// those of the other part of a mixture.
+  /// Mean of every replicate for each output. If `uniform` is not empty, combines both parts of the mixture:
+  /// `replicates` for the density part and `uniform` for the uniform part.
   std::vector<std::vector<double>> replicate_means(const std::vector<Sums>& replicates,
                                                    const std::vector<Sums>& uniform = {},
                                                    const Proposal& proposal = {}) const;
-  /// The means of replicates of so many points each; `histories` holds one entry per output, or none at first;
-  /// `discarded` are values of replicates that were dropped: the tail of an output is that of all values.
+  /// Means over replicates of `points` points each. `histories` has one entry per output, or none before the first
+  /// call. `discarded` are diagnostics of replicates that were dropped, because the tail of an output concerns all of
+  /// its values.
   Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<ReplicateHistory>& histories,
               const std::vector<Sums>& uniform = {}, const Proposal& proposal = {},
               const std::vector<IntegrandDiagnostics>& discarded = {}) const;
-  /// Records a round, and reports the progress.
+  /// Adds a round to the history and reports progress.
   void record(Method method, const Means& means, bool learning = false);
-  /// Notes that the last round of a method is independent of the answer.
+  /// Marks the last round of a method as independent of the answer.
   void mark_independent(Method method);
-  /// Adds to chi2 how far a round lies from means that are independent of it.
+  /// Adds the differences between a round and independent means to chi2.
   void add_chi2(Round& round, const Means& means);
 
+  /// Whether all primary outputs satisfy a tolerance.
   bool converged(const Means& all) const;
 
  private:
@@ -122,7 +132,7 @@ struct IntegrationRun {
                 Keep keep) const;
   void find_tail_offsets(const std::vector<Sums>& first);
   void record_points(Sums& sums, std::span<const double> points, std::span<const double> values) const;
-  /// Throws: so many of `count` points of the set were bad, the one of index `first` the first.
+  /// Throws NotFinite for `bad` of `count` points of the set; `first` is the index of the first bad point.
   [[noreturn]] void throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
                                      const Proposal& proposal) const;
 };

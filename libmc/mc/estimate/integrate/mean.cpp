@@ -14,18 +14,20 @@ namespace mc::detail {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double least = std::numeric_limits<double>::denorm_min(); // a mean below it need not be 0
+// minimum error of a mean: a tiny mean may be rounded to 0
+constexpr double least = std::numeric_limits<double>::denorm_min();
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-constexpr double jump_share = 0.75, constant_share = 1.5; // of one step of one replicate, in standard errors
-constexpr double light_tail_index = 8;                    // a tail of this index shows in no error
-constexpr double large_skewness = 1;                      // replicates that met something large, or did not
-constexpr std::size_t remembered_lengths = 4;             // lengths that any jump is remembered for
+// factors of one step of one replicate that give the standard error
+constexpr double jump_share = 0.75, constant_share = 1.5;
+constexpr double light_tail_index = 8;        // a tail of this index does not affect the error
+constexpr double large_skewness = 1;          // only some replicates contain large values
+constexpr std::size_t remembered_lengths = 4; // number of lengths over which every jump counts
 
-// The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
-// distribution or all of them lie in two narrow clusters.
+// Jump that separates replicates: the widest gap between neighbours, if it is wider than gaps of a smooth distribution
+// or if all replicates are in two narrow clusters.
 struct Gap {
   double width = 0;
-  bool narrow = false, balanced = false; // the clusters beside it; both of three replicates or more
+  bool narrow = false, balanced = false; // narrow: both clusters are; balanced: both have at least three replicates
 };
 Gap widest_gap(std::vector<double> sorted, double deviation) {
   std::sort(sorted.begin(), sorted.end());
@@ -38,8 +40,8 @@ Gap widest_gap(std::vector<double> sorted, double deviation) {
   return gap.width > 1.8 * deviation || gap.narrow ? gap : Gap();
 }
 
-// The highest jump that is one of the integrand beyond doubt: two lengths showed it to a half, while the gaps between
-// replicates of what has none shrink with their error, or one did by two narrow clusters.
+// Largest jump that certainly belongs to the integrand. Two lengths showed it within a factor 1.5, because gaps between
+// replicates of a smooth integrand decrease with the error. Or one length showed it with two narrow clusters.
 double established_jump(const std::vector<ReplicateHistory::Jump>& jumps) {
   double highest = 0;
   for (const auto& one : jumps)
@@ -50,9 +52,9 @@ double established_jump(const std::vector<ReplicateHistory::Jump>& jumps) {
   return highest;
 }
 
-// The highest jump that replicates came to agree on: where their deviation fell with the number of points, as across a
-// jump, for three lengths, and then at once by far more, so that all of them have as many points beyond it. They were
-// of two values before, and deviated by half of what these differ by at most.
+// Largest jump that replicates no longer show because all of them have equally many points beyond it. Their deviation
+// was in proportion to 1 / points for three lengths, as across a jump, and then dropped suddenly by far more. With two
+// values before, the deviation was at most half of their difference.
 double hidden_jump(const std::vector<double>& scaled_deviations) {
   constexpr double flat = 1.6, at_once = 12;
   double highest = 0;
@@ -88,7 +90,7 @@ Estimate::Interval interval(const Mean& m, double confidence) {
 }
 
 double welch_dof(const Mean& a, const Mean& b) {
-  const double largest = std::max(a.error, b.error); // squares of shares neither vanish nor overflow
+  const double largest = std::max(a.error, b.error); // squares of shares neither underflow nor overflow
   return largest > 0 ? mc::welch_dof(sqr(a.error / largest), a.dof, sqr(b.error / largest), b.dof) : a.dof + b.dof;
 }
 
@@ -149,14 +151,14 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Inte
   double largest = 0;
   for (const double x : means) largest = std::max(largest, std::abs(x));
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
-  std::vector<double> scaled; // so that no square overflows or vanishes
+  std::vector<double> scaled; // scaled so that no square overflows or underflows
   Moments m;
   for (const double x : means) {
     scaled.push_back(std::ldexp(x, -exponent));
     m.add(scaled.back());
   }
   const double deviation = std::sqrt(m.variance()), now = std::ldexp(deviation, exponent);
-  const double rounded = std::max(largest, diagnostics.values.mean_magnitude()); // where values cancel, more
+  const double rounded = std::max(largest, diagnostics.values.mean_magnitude()); // larger if values cancel
   const bool differ = now > rounding * rounded;
 
   const Gap gap = differ ? widest_gap(scaled, deviation) : Gap();
@@ -173,7 +175,7 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Inte
     if (size == 0) return {0, 0, r - 1, 0, ErrorBar::all_zero};
     step = std::max(step, range > 1e-9 * size ? jump_share * range : constant_share * size);
   }
-  // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
+  // Under a learned density the bulk of the values hides the tail of the integrand, which only few replicates sample.
   const double index = std::min(diagnostics.tail_index(), diagnostics.values.tail_index());
   const double shown = differ ? now : std::max(now, history.last_nonzero_deviation);
   const double skewness = differ ? detail::skewness(scaled) : 0.0;

@@ -10,37 +10,39 @@
 
 namespace mc::detail {
 
-/// The outcome so far, good for an answer when the run is cancelled.
+/// Result so far. It is the answer of a run that is cancelled.
 struct Outcome {
-  Means means;
-  Method method;
-  StopReason stop = StopReason::max_calls;
-  std::vector<IntegrandDiagnostics> diagnostics = {}; ///< the values behind the means, one per output
-  Correlations correlations = {};                     ///< of the means' errors
-  std::shared_ptr<const AdaptedDensity> density = {}; ///< that was learned
+  Means means;                                        ///< Means of the outputs.
+  Method method;                                      ///< Method of the means.
+  StopReason stop = StopReason::max_calls;            ///< Reason for the end.
+  std::vector<IntegrandDiagnostics> diagnostics = {}; ///< Diagnostics of each output.
+  Correlations correlations = {};                     ///< Correlations of the errors.
+  std::shared_ptr<const AdaptedDensity> density = {}; ///< Learned density, or null.
 };
 
-/// Independent points.
+/// Runs Method::plain. Stores intermediate results in `last`.
 Outcome plain(IntegrationRun& run, std::optional<Outcome>& last);
 
-/// Jittered grids in independent rounds of doubling size.
+/// Runs Method::stratified: jittered points in independent rounds of doubling size. Stores intermediate results in
+/// `last`.
 Outcome stratified(IntegrationRun& run, std::optional<Outcome>& last);
 
-/// A density, and the integrals as the last round saw them.
+/// A learned density, with the integrals of the last round as coefficients.
 struct LearnedDensity {
-  std::shared_ptr<const AdaptedDensity> density;
-  std::vector<double> control_coefficients = {};
+  std::shared_ptr<const AdaptedDensity> density; ///< Learned density.
+  std::vector<double> control_coefficients = {}; ///< Coefficient of each output.
 };
 
-/// Learned in rounds of growing size: a 32nd of the calls, or where those are few up to a quarter; up to a fifth where
-/// that helps, to two fifths where rare large values may be left to be found. `baseline`, if any, are recorded sequences:
-/// learning begins with their points, and gives nothing where they are better than what it learned, as far as both know
-/// their error. A density that the caller gave is used as it is where it fits, see DensityLearner::fits; else learning goes on
-/// from it. What a round says stands in `last`, unless baseline sequences said something already.
+/// Learns a density in rounds of increasing size. Uses a 32nd of the calls, or up to a quarter of a small budget, up to
+/// a fifth if that helps, and up to two fifths if rare large values may be missing.
+///   baseline : Recorded sequences, or null. Learning starts from their points. Returns nullopt if they are better than
+///              the learned density, as far as both errors are known.
+///   options.density : Used unchanged if DensityLearner::fits() accepts it; otherwise learning continues from it.
+///   last : Receives the result of each round, unless there are baseline sequences.
 std::optional<LearnedDensity> learn_density(IntegrationRun& run, const ReplicatedSequences* baseline,
                                             std::optional<Outcome>& last);
 
-/// Sequences that double in length: rqmc, vegas, tree, or, for automatic, the best of them.
+/// Runs rqmc, vegas, tree, or for automatic the best of them, with sequences that double in length.
 Outcome replicated_rqmc(IntegrationRun& run, Method method, std::optional<Outcome>& last);
 
 } // namespace mc::detail

@@ -6,7 +6,7 @@
 namespace mc::detail {
 
 namespace {
-// Of independent values. What they share of a heavy tail, and what equal values leave unseen, as in mean_of_replicates().
+// Mean of independent values. Treats heavy tails and equal values as mean_of_replicates() does.
 Mean of_values(const ScaledMoments& m, const IntegrandDiagnostics& diagnostics, std::span<const double> batch_means) {
   const OctaveHistogram& all = diagnostics.values;
   const double n = static_cast<double>(all.count()), size = std::max(std::abs(all.lo()), std::abs(all.hi()));
@@ -24,7 +24,7 @@ Mean of_values(const ScaledMoments& m, const IntegrandDiagnostics& diagnostics, 
           diagnostics.constant()};
 }
 
-// Of those batches that have values.
+// Means of the batches that contain values, for each output.
 std::vector<std::vector<double>> batch_means(const Sums& total) {
   std::vector<std::vector<double>> means(total.outputs.size());
   for (std::size_t i = 0; i < total.batches.size(); ++i)
@@ -35,7 +35,7 @@ std::vector<std::vector<double>> batch_means(const Sums& total) {
 
 Outcome plain(IntegrationRun& run, std::optional<Outcome>& last) {
   Sums total;
-  // Rounds of 1024 points, then each of as many as all before it.
+  // The first round has 1024 points; each further round doubles the total.
   for (std::uint64_t first = 0;;) {
     const std::uint64_t count = std::min(std::max<std::uint64_t>(first, 1024), run.calls_left());
     total.merge(run.evaluate_all({Independent{run.options.seed}}, first, count, {}, Keep::batches).front());

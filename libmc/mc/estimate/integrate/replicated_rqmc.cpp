@@ -10,24 +10,25 @@ namespace mc::detail {
 
 namespace {
 
-// Replicates that a run ends with at least: eight where there are as many, fewer know their own error too badly.
+// Minimum number of replicates at the end of a run: at least eight if possible, because fewer do not determine their
+// error well.
 std::uint32_t min_replicates(std::uint32_t all) { return std::max((all + 2) / 3, std::min(all, 8u)); }
 
-// Sequences that grow, and what they say on the way.
+// Extends sequences and stores their results.
 class SequenceExtender {
  public:
   SequenceExtender(IntegrationRun& r, Method method, std::optional<Outcome>& l) : out{{}, method}, run_(r), last_(l) {}
 
   Outcome out;
 
-  // The longest power of two that all replicates can reach.
+  // Largest power of two to which all replicates can be extended.
   std::uint64_t max_affordable_length(const ReplicatedSequences& s) const {
     const auto each = run_.calls_left() / s.count;
     return std::min(
         std::bit_floor(s.length + static_cast<std::uint64_t>(static_cast<double>(each) / s.calls_per_point())),
         ReplicatedSequences::max_length);
   }
-  // Points of all replicates that the calls left are enough for.
+  // Number of points, over all replicates, for which the remaining calls suffice.
   double points_left(const ReplicatedSequences& s) const {
     return static_cast<double>(run_.calls_left()) / s.calls_per_point();
   }
@@ -41,7 +42,7 @@ class SequenceExtender {
     }
     return false;
   }
-  // To the end of the calls: all replicates at first, then as many as best_end_plan says.
+  // Uses up the calls: first extends all replicates, then follows best_end_plan().
   Outcome run_to_end(ReplicatedSequences& s) {
     const std::uint64_t most = max_affordable_length(s);
     if (extend_until_converged(s, std::clamp(common_length(s), std::min<std::uint64_t>(16, most), most)))
@@ -52,7 +53,7 @@ class SequenceExtender {
     if (!extend_until_converged(s, end.length)) spend_remaining_calls(s);
     return std::move(out);
   }
-  // Makes what sequences say the outcome.
+  // Stores the results of the sequences as the outcome.
   void set_outcome(const ReplicatedSequences& s) {
     out.means = s.means;
     out.diagnostics = s.diagnostics();
@@ -60,8 +61,9 @@ class SequenceExtender {
     run_.record(out.method, out.means);
     last_ = out;
   }
-  // The same, and returns whether that is good enough. Short ones never are: they agree where none of them has met a
-  // thousandth of the volume that decides, or a place where the density is far too low.
+  // Stores the results and returns whether they have converged. Short sequences never count as converged. Their
+  // replicates agree if all of them miss an important thousandth of the volume, or a place where the density is far too
+  // low.
   bool update_and_test(const ReplicatedSequences& s) {
     set_outcome(s);
     if (s.length >= AxisProfile::most && run_.converged(out.means)) out.stop = last_->stop = StopReason::converged;
@@ -75,24 +77,26 @@ class SequenceExtender {
     std::uint64_t points_per_uniform_point;
   };
 
-  // How long all replicates get so that the fewest still reach the greatest length that the calls allow; an eighth of
-  // that at most, a 32nd at least, and 64 points, to see how the error falls. Those that are so long already grow no
-  // longer together, where some may go: of a million calls 67 thousand went to the replicates that were dropped.
+  // Length to which all replicates are extended, so that the minimum number of them can still reach the largest
+  // affordable length. Lies between a 32nd and an eighth of that length, and is at least 64 to show the convergence
+  // rate. Replicates that already have this length are not extended together if some may be dropped, because points of
+  // dropped replicates are wasted.
   std::uint64_t common_length(const ReplicatedSequences& s) const {
     const double all = s.count, points = points_left(s) + all * static_cast<double>(s.length);
     const double fewer = std::min<double>(min_replicates(run_.options.replicates), all);
     double longest = std::exp2(std::floor(std::log2(static_cast<double>(s.length) + points_left(s) / fewer)));
     const auto affords = [&](double length) { return all * length + fewer * (longest - length) <= points; };
-    const double least = std::min(std::max(longest / 32, 64.0), longest / 8); // shorter ones hardly show the fall
+    // shorter sequences hardly show the convergence rate
+    const double least = std::min(std::max(longest / 32, 64.0), longest / 8);
     if (!affords(std::max(least, static_cast<double>(s.length)))) longest /= 2;
     if (static_cast<double>(s.length) >= least && all > fewer) return s.length;
     double length = longest / 8;
     while (length > 1 && !affords(length)) length /= 2;
     return static_cast<std::uint64_t>(length);
   }
-  // How long sequences should get, how many of them, and how dense their uniform part, for the calls that are left:
-  // what leaves least variance, if it goes on falling as it did, and no slower than that of independent points. Where
-  // it falls fast a uniform part of an eighth of the points has most of the variance.
+  // Length, number and uniform part of the sequences that give the least variance with the remaining calls. Assumes
+  // that the variance continues to fall at the observed rate, or at 1 / N if that is faster. If it falls fast, a
+  // uniform part with an eighth of the points would dominate the variance.
   EndPlan best_end_plan(const ReplicatedSequences& s) const {
     EndPlan best{s.length, s.count, s.points_per_uniform_point};
     double least = std::numeric_limits<double>::infinity();
@@ -104,7 +108,7 @@ class SequenceExtender {
     for (std::uint64_t points_per_uniform_point = s.points_per_uniform_point;
          points_per_uniform_point > 0 && s.length > 0;
          points_per_uniform_point = uniform_share > 0 ? points_per_uniform_point / 2 : 0)
-      // Replicates that do not grow keep the uniform part they have.
+      // Replicates that are not extended keep their uniform part.
       for (std::uint64_t length = points_per_uniform_point < s.points_per_uniform_point ? 2 * s.length : s.length;
            length <= ReplicatedSequences::max_length; length *= 2) {
         const std::uint64_t uniform_length = s.uniform_points(length, points_per_uniform_point);
@@ -118,14 +122,14 @@ class SequenceExtender {
       }
     return best;
   }
-  // How many replicates of so many calls there will be: some of those there are, or all of them and others.
+  // Number of replicates of `calls` calls each at the end: some of the present ones, or all of them and new ones.
   double replicates_at_end(const ReplicatedSequences& s, std::uint64_t calls) const {
     const double all = s.count, left = static_cast<double>(run_.calls_left()), each = static_cast<double>(calls),
                  longer = each - static_cast<double>(s.calls_per_replicate());
     if (left < all * longer) return std::floor(left / longer);
     return all + std::floor((left - all * longer) / each);
   }
-  // More replicates, as long as those there are.
+  // Adds replicates of the current length.
   void spend_remaining_calls(ReplicatedSequences& s) {
     const std::uint64_t more = run_.calls_left() / std::max<std::uint64_t>(s.calls_per_replicate(), 1);
     if (more == 0 || s.length == 0) return;
@@ -142,16 +146,16 @@ struct MethodCandidate {
   ReplicatedSequences sequences;
 };
 
-// Lets what was learned run against the baseline sequences as far as these went, and against each other, at the length that
-// they would end with. As many replicates race as end: what others would say is worth less than their calls.
+// Compares learned densities with the baseline sequences up to their length, and with each other, by the predicted
+// errors at the final length. Uses the final number of replicates, because additional ones are not worth their calls.
 class MethodSelector {
-  static constexpr double clear = 3; // a decision by more than this is made on the way
-  // Of what was gained for each doubling so far, the part that those which follow gain more: of interlaced points than
-  // of others, of baseline ones than of those behind a grid, of these than of those behind a tree, whose boxes are jumps.
+  static constexpr double clear = 3; // a larger lead decides early
+  // Expected gain per doubling relative to the gain so far. Interlaced points gain more than others, baseline sequences
+  // more than sequences behind a grid, and these more than sequences behind a tree, because its boxes have jumps.
   static constexpr double of_interlacing = 1, without_grid = 0.5, without_boxes = 1.5;
 
  public:
-  // `last`: the length that they would end with.
+  // `last` is the length at the end of the run.
   MethodSelector(IntegrationRun& r, const ReplicatedSequences& b, std::uint64_t last)
       : run_(r), baseline_(b),
         doublings_(std::max(std::log2(static_cast<double>(last) / static_cast<double>(b.length)), 0.0)) {}
@@ -173,13 +177,13 @@ class MethodSelector {
   }
 
  private:
-  // The answer is independent of one that is out.
+  // Removes a candidate. The final answer is independent of it.
   void eliminate(std::vector<MethodCandidate>& all, std::size_t i) {
     run_.record(all[i].method, all[i].sequences.means);
     run_.rounds.back().independent = true;
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  // By how much one is ahead, beyond doubt, in the logarithm of the variance.
+  // Lead of a candidate in log variance, beyond the required margin.
   double lead_over_baseline(const MethodCandidate& c) const {
     if (has_fewer_known_errors(baseline_.means_history.back(), c.sequences.means_history.back())) return clear;
     return predicted_log_variance_ratio(baseline_, c.sequences, doublings_,
@@ -190,7 +194,7 @@ class MethodSelector {
     return predicted_log_variance_ratio(all[0].sequences, all[1].sequences, doublings_, without_boxes) -
            required_margin(all[1].sequences.means_history.back());
   }
-  // The one that has not met what counts may look better by far.
+  // If the means differ, a candidate that misses an important region may look much better.
   static bool means_differ(const std::vector<MethodCandidate>& all) {
     return significantly_different(all[0].sequences.means_history.back(), all[1].sequences.means_history.back());
   }
@@ -200,7 +204,7 @@ class MethodSelector {
 
   IntegrationRun& run_;
   const ReplicatedSequences& baseline_;
-  double doublings_; // after the contest
+  double doublings_; // after the comparison
 };
 
 std::vector<MethodCandidate> make_candidates(const LearnedDensity& learned, std::uint32_t count) {
@@ -210,7 +214,7 @@ std::vector<MethodCandidate> make_candidates(const LearnedDensity& learned, std:
         {method,
          {.stream_id = stream_id, .count = count, .proposal = {std::move(density), learned.control_coefficients}}});
   };
-  // The rounds of learning have the stream ids between.
+  // The learning rounds use the stream ids in between.
   const AdaptedDensity& density = *learned.density;
   propose(Method::vegas, 1, std::make_shared<AdaptedDensity>(AdaptedDensity{density.grid}));
   if (density.tree && density.tree->leaves() > 1) propose(Method::tree, 30, learned.density);
@@ -227,7 +231,7 @@ Outcome replicated_rqmc(IntegrationRun& run, Method method, std::optional<Outcom
     const std::uint64_t most = extender.max_affordable_length(baseline);
     if (extender.extend_until_converged(baseline, std::max<std::uint64_t>(most / 16, 1)))
       return std::move(extender.out);
-    // What would have converged but for its length gets it.
+    // Extends sequences that would have converged if they were longer.
     if (run.converged(baseline.means) && extender.extend_until_converged(baseline, std::min(most, AxisProfile::most)))
       return std::move(extender.out);
   }
@@ -244,14 +248,15 @@ Outcome replicated_rqmc(IntegrationRun& run, Method method, std::optional<Outcom
     MethodCandidate& c = method == Method::vegas ? all.front() : all.back();
     return extender.run_to_end(c.sequences);
   }
-  // Of few calls none are left to hold against each other what was learned; a point costs two calls at most.
+  // With few calls, none remain for a comparison of the candidates. A point costs at most two calls.
   if (2 * all.size() * all.front().sequences.count * baseline.length > run.calls_left())
     return extender.run_to_end(baseline);
   std::optional<MethodCandidate> best =
       MethodSelector(run, baseline, extender.max_affordable_length(all.front().sequences)).select(all);
   if (!best) return extender.run_to_end(baseline);
   extender.out.method = best->method;
-  extender.set_outcome(best->sequences); // not yet good enough: it was chosen for the error that it shows here
+  // cannot end the run yet: the candidate was selected for the error measured here
+  extender.set_outcome(best->sequences);
   return extender.run_to_end(best->sequences);
 }
 

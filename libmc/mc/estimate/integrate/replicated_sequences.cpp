@@ -7,15 +7,15 @@
 namespace mc::detail {
 
 namespace {
-constexpr std::uint64_t uniform_stream_offset = 1000; // added to the stream_id
+constexpr std::uint64_t uniform_stream_offset = 1000; // added to the stream_id for the uniform part
 
-// The logarithm of the ratio of the variances of two errors, which may be 0.
+// Logarithm of the ratio of the variances of two errors, which may be 0.
 double log_squared_ratio(double a, double b) {
   constexpr double least = std::numeric_limits<double>::min();
   return 2 * std::log((a + least) / (b + least));
 }
 
-// Sets [first, last) of a stream_id with their points [from, to).
+// Evaluates points [from, to) of sets [first, last) of the stream and adds their sums. Creates missing sets.
 void add(IntegrationRun& run, std::uint64_t stream_id, std::uint32_t first, std::uint32_t last, std::uint64_t from,
          std::uint64_t to, const Proposal& proposal, bool record, std::vector<PointSet>& sets,
          std::vector<Sums>& sums) {
@@ -31,7 +31,8 @@ void add(IntegrationRun& run, std::uint64_t stream_id, std::uint32_t first, std:
   for (std::uint32_t r = first; r < last; ++r) sums[r].merge(more[r - first]);
 }
 
-// Both parts of the mixture, or the one there is, from so many points to all.
+// Extends the sequences from `first` on to the current lengths and updates the means. With a density, extends both
+// parts of the mixture.
 Means grown(IntegrationRun& run, ReplicatedSequences& s, std::uint32_t first, std::uint64_t from,
             std::uint64_t uniform_from) {
   Proposal part = s.proposal;
@@ -45,7 +46,7 @@ Means grown(IntegrationRun& run, ReplicatedSequences& s, std::uint32_t first, st
   return s.means = run.means(s.sums, s.length, s.histories, s.uniform_sums, s.proposal, s.discarded);
 }
 
-// Of the replicates' means, however large.
+// Standard deviation of the means of the replicates, of any size.
 double deviation(const std::vector<Sums>& replicates, std::size_t output) {
   std::vector<double> means;
   double largest = 0;
@@ -118,7 +119,7 @@ Correlations ReplicatedSequences::correlations(const IntegrationRun& run) const 
 namespace {
 bool significantly_different(const Mean& a, const Mean& b) {
   const auto z = z_score(a, b);
-  return z && *z > 3.72; // in 1e-4 by chance
+  return z && *z > 3.72; // probability 1e-4 by chance
 }
 } // namespace
 
@@ -139,7 +140,7 @@ bool has_fewer_known_errors(const Means& a, const Means& b) {
 }
 
 double log_variance_ratio(const Means& a, const Means& b) {
-  // Relative to its size, where they are apart.
+  // Error, or relative error if the means differ significantly.
   const auto error = [](const Mean& m, const Mean& other) {
     if (!significantly_different(m, other)) return m.error;
     const double missed = std::abs(m.value) < std::abs(other.value) ? std::abs(other.value - m.value) : 0.0;
@@ -164,7 +165,7 @@ double convergence_rate(const ReplicatedSequences& s) {
 }
 
 namespace {
-// The standard error that one replicate would have, were its points independent.
+// Standard error of one replicate if its points were independent.
 double independent_error(const ReplicatedSequences& s, std::size_t output) {
   const auto error = [&](const std::vector<Sums>& replicates, std::uint64_t points) {
     ScaledMoments all;
@@ -177,7 +178,7 @@ double independent_error(const ReplicatedSequences& s, std::size_t output) {
                     Proposal::uniform_share * error(s.uniform_sums, s.uniform_length));
 }
 
-// The logarithm of that variance over the one which the replicates show; 0 where they show more.
+// Logarithm of the variance for independent points over the actual variance of a replicate; at least 0.
 double log_efficiency_gain(const ReplicatedSequences& s, std::size_t output) {
   const double shown = s.means_history.back()[output].error * std::sqrt(s.count);
   return std::max(log_squared_ratio(independent_error(s, output), shown), 0.0);
@@ -186,11 +187,12 @@ double log_efficiency_gain(const ReplicatedSequences& s, std::size_t output) {
 
 double predicted_log_variance_ratio(const ReplicatedSequences& a, const ReplicatedSequences& b, double doublings,
                                     double expected) {
-  constexpr double before = 0.4; // of the first doubling: what has not gained yet may still
-  constexpr double differ = 0.5; // of two gains, over their mean
+  constexpr double before = 0.4; // gain before the first doubling: a sequence without gain so far may still gain
+  constexpr double differ = 0.5; // expected difference of two gains relative to their mean
   const Means &of_a = a.means_history.back(), &of_b = b.means_history.back();
   const double doubled = std::max(std::log2(static_cast<double>(a.length)), 1.0);
-  const double noise = 2.0 / (a.count - 1) + 2.0 / (b.count - 1); // variance of the logarithm of their variances
+  // variance of the logarithm of both variance estimates
+  const double noise = 2.0 / (a.count - 1) + 2.0 / (b.count - 1);
   double sum = 0;
   for (std::size_t k = 0; k < of_a.size(); ++k) {
     const double gain_a = log_efficiency_gain(a, k), gain_b = log_efficiency_gain(b, k),

@@ -4,8 +4,8 @@
 
 namespace mc::detail {
 
-// Independent rounds, weighed by the square of their number of points: by the number alone, the early rounds would
-// dominate an error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
+// Combines independent rounds with weights (number of points)^2. With weights proportional to the number, early rounds
+// would dominate an error that falls faster than N^-1/2. With measured variances as weights, the mean would be biased.
 Outcome stratified(IntegrationRun& run, std::optional<Outcome>& last) {
   Outcome out{{}, Method::stratified};
   double weight = 0;
@@ -16,7 +16,8 @@ Outcome stratified(IntegrationRun& run, std::optional<Outcome>& last) {
     for (std::uint32_t r = 0; r < run.options.replicates; ++r)
       sets.emplace_back(JitteredBoxes{hash(run.options.seed, round, r), static_cast<std::uint32_t>(points)});
     const std::vector<Sums> sums = run.evaluate_all(sets, 0, points);
-    const Means now = run.means(sums, points, histories, {}, {}, out.diagnostics); // a tail is that of all rounds
+    // the tail uses the values of all rounds
+    const Means now = run.means(sums, points, histories, {}, {}, out.diagnostics);
     run.record(Method::stratified, now);
     out.diagnostics.resize(run.outputs);
     for (const Sums& s : sums)
@@ -31,13 +32,13 @@ Outcome stratified(IntegrationRun& run, std::optional<Outcome>& last) {
       run.add_chi2(run.rounds.back(), out.means);
       out.correlations = combine_independent(out.correlations, out.means, together, now, share);
       for (std::size_t k = 0; k < run.outputs; ++k) {
-        // Rounds of zeros only: once something is seen, their error is that of half as many points.
+        // Earlier rounds had only zeros. Their error is set to the error of half as many points.
         if (out.means[k].error_bar == ErrorBar::all_zero) out.means[k].error = 2 * now[k].error;
         out.means[k] = combine_independent(out.means[k], now[k], share);
       }
     }
     if (run.converged(out.means)) out.stop = StopReason::converged;
-    // The last round takes all that is left rather than leave a rest that is too small for another doubling.
+    // The last round takes all remaining calls if they do not suffice for another doubling after it.
     const std::uint64_t left = std::min<std::uint64_t>(run.calls_left() / run.options.replicates, 0xffffffffu);
     if (out.stop == StopReason::converged || left < points) return out;
     points = left < 4 * points ? left : 2 * points;

@@ -24,7 +24,7 @@ void ScaledMoments::add(std::span<double> values, std::uint64_t first, double la
 void ScaledMoments::merge(const ScaledMoments& other) {
   ScaledMoments theirs = other;
   if (theirs.exponent_ != exponent_) {
-    // Zeros have no size: they take that of the others.
+    // Zeros have no scale and take the exponent of the other values.
     int exponent = std::max(exponent_, theirs.exponent_);
     if (only_zeros()) exponent = theirs.exponent_;
     else if (theirs.only_zeros()) exponent = exponent_;

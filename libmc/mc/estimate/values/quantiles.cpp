@@ -22,7 +22,7 @@ struct ReplicateValues {
     for (const std::vector<double>& r : replicates)
       shares.push_back(static_cast<double>(std::upper_bound(r.begin(), r.end(), t) - r.begin()) /
                        static_cast<double>(r.size()));
-    const double inside[] = {0, 1}; // the values whose mean is a share
+    const double inside[] = {0, 1}; // a share is the mean of values in {0, 1}
     detail::IntegrandDiagnostics sizes;
     sizes.values.add(inside);
     detail::ReplicateHistory history;
@@ -39,7 +39,7 @@ std::vector<double>::const_iterator first_value(const ReplicateValues& sampled, 
                               [&](double t) { return sampled.share(t, confidence).*end < p; });
 }
 
-// The interval reaches from the first value whose share may be p to the first value whose share is at least p.
+// The interval reaches from the first value with a share that may be p to the first value with a share of at least p.
 Quantile quantile(const ReplicateValues& sampled, double p, double confidence) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto lo = first_value(sampled, p, confidence, &Estimate::Interval::hi);

@@ -7,10 +7,11 @@
 namespace mc::detail {
 
 namespace {
-constexpr double small = 1e-3, large = 1e-2; // variances of a point over the squared mean
-constexpr double enough = 8;                 // points that a variance must be made of
-constexpr double equal_factor = 12;          // times as many points as decide, and the grid is told of all
-constexpr double fewest = 256;               // points that the grid is told of at least
+constexpr double small = 1e-3, large = 1e-2; // bounds of a variance per point, relative to the squared mean
+constexpr double enough = 8;                 // number of points that must contribute to a variance
+// the grid uses all points if this times the number of decisive points exceeds their number
+constexpr double equal_factor = 12;
+constexpr double fewest = 256; // minimum number of points for the grid
 } // namespace
 
 DensityLearner::DensityLearner(const IntegrationRun& run)
@@ -59,7 +60,7 @@ void DensityLearner::measure() {
       square[k] += x * x / (p * mixture_[i]);
     }
   }
-  // Outputs of different size count alike.
+  // Gives outputs of different size equal weight.
   scale_.assign(outputs, 0);
   log_second_moment_ = 0;
   for (std::size_t k = 0; k < outputs; ++k) {
@@ -69,8 +70,8 @@ void DensityLearner::measure() {
   }
 }
 
-// For every point that was seen, its part of the variance of an output whose points are drawn from the mixture with the
-// density p, over the squared mean.
+// Contribution of every point to the variance of an output for points from the mixture with density p, relative to the
+// squared mean.
 std::vector<double> DensityLearner::variance_contributions(std::size_t output, const AdaptedDensity& p) const {
   const std::size_t outputs = run_.primary_outputs();
   double largest = 0, mean = 0;
@@ -100,8 +101,8 @@ bool DensityLearner::fits(const AdaptedDensity& p) const {
   return true;
 }
 
-// The points in the coordinates of the grid. The value of each is the root of the squares of all outputs, or, where
-// there is one output only, that output with its sign.
+// The points in the coordinates of the grid. The value of a point is the root of the sum of squares of all outputs, or
+// for a single output its signed value.
 WeightedSamples DensityLearner::samples_in_grid_coordinates() const {
   const std::size_t outputs = run_.primary_outputs();
   WeightedSamples samples{run_.dim, points_, std::vector<double>(size()), std::vector<double>(size())};
@@ -116,13 +117,15 @@ WeightedSamples DensityLearner::samples_in_grid_coordinates() const {
   return samples;
 }
 
-// Where the values are spread widely, a few of the largest would decide everything. Then the grid follows a root of the
-// integrand first, and what is left to learn is spread less widely. And where few of the points decide the integral
-// [Kish65], most having met next to nothing, the grid is told of fewer points: a density that follows single ones is
-// far too low where none fell. By the square of that share, since the grid follows about the square of the integrand,
-// of which fewer still decide. But what even a handful found is followed, if coarsely, so that the next round looks
-// there. Of a singular integrand a good share decides, although a few points hold its square: it is followed as far as
-// it goes, else its tail would stay hidden.
+// Adapts the grid. Three rules keep it from following single points:
+//   - If the values are widely spread, the few largest would decide everything. The grid then follows a root of the
+//     integrand, and the remaining factor is less widely spread.
+//   - If few points dominate the integral [Kish65], refine() gets a smaller number of points, because a density that
+//     follows single points is far too low between them. The number is reduced by the square of the dominating share,
+//     because the grid follows about the squared integrand, which even fewer points dominate.
+//   - Even a handful of points determines a coarse density, so that the next round samples their region. Many points
+//     dominate a singular integral although few dominate its square. The grid follows it as closely as possible,
+//     because otherwise its tail would stay hidden.
 void DensityLearner::adapt_grid() {
   const WeightedSamples samples = samples_in_grid_coordinates();
   const double exponent = std::min(2.0, std::sqrt(8 / std::max(log_second_moment_, 1e-3)));

@@ -1,5 +1,5 @@
 #pragma once
-/// What the rounds of a run teach of where the integrand is.
+/// Learning of a density from the rounds of a run.
 
 #include <mc/estimate/adapt/adapted_density.h>
 #include <mc/estimate/integrate/integration_run.h>
@@ -9,30 +9,32 @@
 
 namespace mc::detail {
 
-/// Everything that was seen so far, each point weighed by all the densities that might have drawn it, so that nothing
-/// is forgotten and no rare point counts too much; and the density that follows from it.
-///   Source : the balance heuristic [Veach97]
+/// All points of a run so far and the density that follows from them. Each point has the weight of the mixture of all
+/// densities that could have drawn it. No point is forgotten, and no rare point has too much weight.
+///   Source : The balance heuristic [Veach97].
 class DensityLearner {
  public:
+  /// Learner for the integrand and settings of `run`; starts with the uniform density.
   explicit DensityLearner(const IntegrationRun& run);
 
-  /// Takes in a round that was recorded, its points drawn from density(), and adapts that: the grid, and from the
-  /// second round on the tree within it.
+  /// Adds a round of recorded points, drawn from density(). Then adapts the grid and, from the second round on, the
+  /// tree within it.
   void learn(const std::vector<Sums>& round);
 
+  /// Density to draw the next round from.
   const AdaptedDensity& density() const { return density_; }
-  /// Goes on from this density: the next round is drawn from it.
+  /// Replaces the density. The next round must be drawn from it, and learning continues from it.
   void set_density(AdaptedDensity density) { density_ = std::move(density); }
-  /// Whether a density that the caller gave may be used as it is. Asked after a round of uniform points and one drawn
-  /// from that density. It does not fit
-  ///   - where its variance is not tiny and comes from few points: from fewer than eight in the shortest run that may
-  ///     converge. That is how a density looks that is far too low somewhere; replicates that all missed the place
-  ///     agree
-  ///   - where its variance is large, and density(), which went on learning from it, has less than half of that. If the
-  ///     given one has no tree, density() is judged without its own
+  /// Whether a density given by the caller can be used unchanged. Requires a round of uniform points and a round drawn
+  /// from that density. The density does not fit in two cases:
+  ///   - Its variance is not tiny, and fewer than eight points of the shortest run that can converge dominate it. A
+  ///     density that is far too low somewhere behaves like this, and replicates that all missed that place would
+  ///     agree.
+  ///   - Its variance is large, and density(), which continued learning from it, has less than half of its variance. If
+  ///     the given density has no tree, density() counts without its tree.
   bool fits(const AdaptedDensity& density) const;
-  /// The logarithm of the mean square over the squared mean of the values under the density before the last round: the
-  /// variance of their logarithm, were they log-normal. Of the widest output.
+  /// Logarithm of mean square over squared mean of the values under the density before the last round, for the output
+  /// where it is largest. For log-normal values this is the variance of their logarithm.
   double log_second_moment() const { return log_second_moment_; }
 
  private:
@@ -56,8 +58,8 @@ class DensityLearner {
   AdaptedDensity density_;
   std::vector<DensityRound> rounds_;
   std::vector<double> points_, values_;
-  std::vector<double> mixture_; // of each point, the density of all rounds times their points
-  std::vector<double> scale_;   // of each output
+  std::vector<double> mixture_; // for each point, sum over rounds of (density x number of points)
+  std::vector<double> scale_;   // for each output
   double log_second_moment_ = 0;
 };
 

@@ -7,14 +7,15 @@
 namespace mc::detail {
 
 namespace {
-// DensityLearner::log_second_moment() from which on the rare large values may not have been met yet, and up to which all have been.
+// Values of DensityLearner::log_second_moment(). Above `wide`, rare large values may be missing. Below `narrow`, none
+// are.
 constexpr double wide = 2, narrow = 1;
-constexpr double small_lead = 0.5; // as log_variance_gain() says
+constexpr double small_lead = 0.5; // in units of log_variance_gain()
 
-// How much better a round is than the baseline sequences: the logarithm of their variance over its own, summed over the
-// outputs. For that their variance is taken to the number of points of the round, as if it fell like 1 / N. It is so
-// compared at the length next to the round's and at their last, and what speaks more for the round counts: a variance
-// that few points show is often too small.
+// Advantage of a round over the baseline sequences: logarithm of the ratio of their variances, summed over the outputs.
+// Scales the variance of the sequences to the number of points of the round by 1 / N. Compares at the length closest to
+// the round and at the last length, and takes the result more favourable for the round, because a variance from few
+// points is often too small.
 double log_variance_gain(const Means& round, std::uint64_t points, const ReplicatedSequences& baseline) {
   std::size_t at = 0;
   for (std::uint64_t length = 16; 2 * length <= points && at + 1 < baseline.means_history.size(); length *= 2) ++at;
@@ -26,7 +27,7 @@ double log_variance_gain(const Means& round, std::uint64_t points, const Replica
   return std::max(lead(at), lead(baseline.means_history.size() - 1));
 }
 
-// A round of so many points of each replicate, drawn from a density; `last`, if any, becomes what it says.
+// Evaluates a round of `points` points per replicate from a density. Stores the result in `last` unless that is null.
 Means evaluate_round(IntegrationRun& run, std::shared_ptr<const AdaptedDensity> density, std::uint64_t stream_id,
                      std::uint64_t points, DensityLearner* learner, std::optional<Outcome>* last) {
   const Proposal proposal{.density = std::move(density)};
@@ -34,36 +35,38 @@ Means evaluate_round(IntegrationRun& run, std::shared_ptr<const AdaptedDensity> 
                                                   proposal, learner ? Keep::points : Keep::sums);
   if (learner) learner->learn(sums);
   std::vector<ReplicateHistory> histories;
-  // Only the last round is held against the answer: it knew best where the integrand is. Earlier ones may have met too
-  // little of it to know their own error.
+  // Only the last round is compared with the answer, because its density is the best. Earlier rounds may have missed
+  // too much of the integrand to have a valid error.
   for (Round& r : run.rounds) r.independent = false;
   run.record(proposal.density->tree ? Method::tree : Method::vegas, run.means(sums, points, histories), true);
   const Means& means = run.rounds.back().means;
   if (last)
     *last = {.means = means,
-             .method = run.options.method, // vegas or tree, whichever kind of density this round was drawn from
+             .method = run.options.method, // vegas or tree, for either kind of density
              .diagnostics = merged_diagnostics(sums),
              .correlations = correlations(run.replicate_means(sums, {}, proposal)),
              .density = proposal.density};
   return means;
 }
 
-// Whether too little of some output was met to know its error.
+// Whether some output is undersampled or all zero.
 bool is_undersampled(const Means& means) {
   return std::any_of(means.begin(), means.end(), [](const Mean& m) {
     return m.reported_error_bar() == ErrorBar::undersampled || m.reported_error_bar() == ErrorBar::all_zero;
   });
 }
 
-// Whether some error is not known.
+// Whether some error is unknown.
 bool has_unknown_error(const Means& means) {
   return std::any_of(means.begin(), means.end(),
                      [](const Mean& m) { return m.reported_error_bar() != ErrorBar::known; });
 }
 
-// Whether a round of so many calls pays: the logarithm of the variance, if it goes on falling with that of the number
-// of points as it did in the last round, then falls further than it rises for want of these calls, as 1 / N.
-//   fell : in the last round, of so many calls; `points_so_far` is the number of all points so far
+// Whether a round of `calls` calls pays off. Assumes that the log variance continues to fall with the log of the number
+// of points as in the last round. That gain must exceed the loss of these calls for integration, where the variance is
+// O(1 / N).
+//   fell : decrease in the last round, which had `last` points.
+//   points_so_far : number of all points.
 bool is_worthwhile(double fell, double last, double points_so_far, double calls, double left) {
   if (calls >= left) return false;
   return last >= points_so_far ||
@@ -76,16 +79,16 @@ std::vector<double> values(const Means& means) {
   return all;
 }
 
-// The density that the caller gave, and whether it may be used as it is.
+// Test of a density that the caller gave.
 struct DensityTrial {
   LearnedDensity given;
   bool fits = true;
 };
-// Tries it on a round of points drawn from it, and on uniform points: those of the baseline sequences or, without them, a
-// round as long. The learner learns from both, and goes on from that density.
+// Tests the given density on points drawn from it and on uniform points. Uniform points are the points of the baseline
+// sequences or an additional round. The learner learns from all of them and continues from the given density.
 DensityTrial try_density(IntegrationRun& run, const ReplicatedSequences* baseline, std::uint64_t points,
                          DensityLearner& learner, std::optional<Outcome>* latest) {
-  constexpr std::uint64_t uniform_stream = 20, given_stream = 21; // stream ids that no round of learning has
+  constexpr std::uint64_t uniform_stream = 20, given_stream = 21; // not used by learning rounds
   DensityTrial all{{run.options.density, std::vector<double>(run.outputs)}};
   if (points == 0) return all;
   if (!baseline)
@@ -113,15 +116,15 @@ std::optional<LearnedDensity> learn_density(IntegrationRun& run, const Replicate
     if (given.fits) return std::move(given.given);
     control_coefficients = std::move(given.given.control_coefficients);
   }
-  // Rounds of a quarter, a quarter and a half of the budget, the first of which the baseline sequences may stand for, or
-  // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it pays.
-  // Where they are spread so widely that rare large ones may be left to be found, and no baseline sequences that know their
-  // error say otherwise, up to twice as many calls.
+  // Rounds have a quarter, a quarter and a half of the budget. The baseline sequences or the test of a given density
+  // may replace the first. Further rounds double in size while the values are widely spread and a round pays off. Takes
+  // up to twice as many calls if rare large values may be missing and no baseline sequences with a known error
+  // contradict.
   std::uint64_t calls = budget / 4, spent = 0;
   const std::uint64_t before_all = baseline ? baseline->length * baseline->count : 0;
   double lead = 0;
-  bool comparable =
-      false; // by baseline sequences: where one of the two does not know its error, neither says which is better
+  // comparison with the baseline sequences is meaningful only if both errors are known
+  bool comparable = false;
   const bool first_round_done =
       run.options.density || (baseline && run.calls >= calls && learner.log_second_moment() < wide);
   for (std::uint64_t k = first_round_done ? 1 : 0; calls / run.options.replicates >= 8; ++k) {
@@ -133,7 +136,7 @@ std::optional<LearnedDensity> learn_density(IntegrationRun& run, const Replicate
     spent += calls;
     if (baseline) lead = log_variance_gain(round, points, *baseline);
     comparable = baseline && !has_unknown_error(baseline->means_history.back()) && !has_unknown_error(round);
-    // Hopeless: worse than the baseline sequences although no rare large values are left to be found.
+    // Gives up if it is worse than the baseline sequences although no rare large values can be missing.
     if (comparable && k > 0 && learner.log_second_moment() < wide &&
         lead < -required_margin(baseline->means_history.back()) - 0.5)
       return {};
@@ -148,7 +151,7 @@ std::optional<LearnedDensity> learn_density(IntegrationRun& run, const Replicate
     const std::uint64_t most = std::min(run.options.max_calls / 5 * (searching ? 2 : 1), room);
     if (k >= 2 && (learner.log_second_moment() < 0.5 || !(searching || helps) || spent + calls > most)) break;
   }
-  // A small lead is not worth the calls of a contest: the baseline sequences make it up with them.
+  // A small lead does not justify the calls for a comparison.
   if (comparable && learner.log_second_moment() < narrow && lead < small_lead) return {};
   return LearnedDensity{std::make_shared<AdaptedDensity>(learner.density()), std::move(control_coefficients)};
 }
