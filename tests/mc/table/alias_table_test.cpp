@@ -10,7 +10,7 @@ namespace {
 
 static_assert(mc::DiscreteDistribution<mc::AliasTable>);
 
-// u from each end of each half of each bin: no outcome of weight 0, and all of the others.
+// Tries u at each end of each half of each bin. These u select all outcomes of positive weight, and none of weight 0.
 TEST(AliasTable, ReachesEveryPositiveWeightAndNoOther) {
   for (const std::vector<double>& w : std::vector<std::vector<double>>{{1},
                                                                        {0, 1},
@@ -39,7 +39,8 @@ TEST(AliasTable, ReachesEveryPositiveWeightAndNoOther) {
   }
 }
 
-// Mean and second moment of the remapped number within 5 sd (alpha 1e-6 each), and its correlation with the outcome.
+// The mean and second moment of the remapped number, and its correlation with the outcome, agree within 5 standard
+// deviations (alpha 1e-6 each).
 TEST(AliasTable, RemappedIsUniformAndIndependent) {
   const std::vector<double> w{1, 5, 0, 2, 0.5, 7};
   const mc::AliasTable table(w);

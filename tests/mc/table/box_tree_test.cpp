@@ -12,7 +12,7 @@ namespace {
 using mc::BoxTree;
 using mc::BoxTreeNode;
 
-// A random tree: planes anywhere in their boxes, weights over many orders of magnitude, zeros among them.
+// A random tree: planes anywhere in their boxes, weights over many orders of magnitude, including 0.
 std::vector<BoxTreeNode> random_nodes(std::uint64_t seed, int dim, int depth, std::vector<double> lo,
                                       std::vector<double> hi) {
   const auto random = [&](std::uint64_t k) { return mc::hash_uniform<double>(seed, k); };
@@ -32,7 +32,7 @@ BoxTree random_tree(std::uint64_t seed, int dim, int depth) {
   std::vector<BoxTreeNode> nodes =
       random_nodes(seed, dim, depth, std::vector<double>(static_cast<std::size_t>(dim), 0.0),
                    std::vector<double>(static_cast<std::size_t>(dim), 1.0));
-  nodes.back().value = 1; // not all of them are 0
+  nodes.back().value = 1; // at least one positive weight
   return BoxTree(dim, nodes);
 }
 
@@ -63,7 +63,7 @@ TEST(BoxTree, BoxesFillTheCubeAndProbabilitiesFollowTheWeights) {
   }
 }
 
-// Both ways down meet the same leaf, and the Jacobian is the inverse of the density; every edge of u is legal.
+// Look-up by u and by x finds the same leaf, and the Jacobian is the inverse of the density. Includes the edges of u.
 TEST(BoxTree, MapKeepsToTheLeaf) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const BoxTree tree = random_tree(seed, 3, 9);
@@ -118,7 +118,7 @@ TEST(BoxTree, RefusesNonsense) {
                mc::Error);
 }
 
-// On either side of a plane.
+// The small weight lies on either side of a plane.
 TEST(BoxTree, SmallWeightsKeepAProbability) {
   for (const double tiny : {1e-15, 1e-17, 1e-50, 1e-300})
     for (const bool above : {false, true}) {
@@ -131,7 +131,7 @@ TEST(BoxTree, SmallWeightsKeepAProbability) {
     }
 }
 
-// However often it is cut: beside a leaf of nearly all weight no number may be left between others.
+// A leaf with nearly all of the weight must leave representable numbers for its neighbours, for any number of cuts.
 TEST(BoxTree, ManySmallWeightsKeepTheirProbabilities) {
   for (const bool mirrored : {false, true}) {
     std::vector<BoxTreeNode> nodes;

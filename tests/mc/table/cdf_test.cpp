@@ -11,7 +11,7 @@
 
 namespace {
 
-// Every outcome of positive weight owns an interval, found at both its ends; the others own none.
+// Every outcome of positive weight has an interval, and `find` returns it at both ends. Outcomes of weight 0 have none.
 void expect_consistent(const std::vector<double>& w) {
   const mc::Cdf cdf(w);
   ASSERT_EQ(cdf.cdf(0), 0);
@@ -47,7 +47,7 @@ TEST(Cdf, EveryPositiveWeightIsReachableAndNoOther) {
   expect_consistent(w);
 }
 
-// The rounding of u n may put the last u of an interval in the guide's next cell.
+// The rounding of u n may put the last u of an interval into the next cell of the guide.
 TEST(Cdf, EndsThatFallOnTheGuide) {
   for (std::size_t n = 1; n < 500; ++n) {
     std::vector<double> w(n, 1.0);
@@ -73,8 +73,7 @@ TEST(Cdf, MassIsTheShareOfTheWeight) {
   for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(cdf.pmf(i), w[i] / sum, 0x1p-52);
 }
 
-// peers.md: a sky of 1024 x 512 with a sun of 1e6 times its radiance. Every entry is met with the probability of its
-//           weight.
+// A sky of 1024 x 512 pixels with a sun of 1e6 times its radiance. Every entry has the probability of its weight.
 TEST(Cdf, SunInTheSky) {
   for (const std::size_t sun : {std::size_t{10}, std::size_t{262144}}) {
     std::vector<double> w(524288);

@@ -14,7 +14,7 @@ template <class S> class DiscreteOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(DiscreteOver, Scalars);
 
-// Alpha 1e-6 a case, fixed seeds.
+// Statistical laws with alpha 1e-6 per case and fixed seeds.
 template <class D> void expect_laws(const D& distribution) {
   static_assert(DiscreteDistribution<D>);
   const Report report =
@@ -33,8 +33,8 @@ TYPED_TEST(DiscreteOver, UniformObeysItsLaws) {
   for (const std::size_t n : {1u, 2u, 3u, 10u, 1000u}) expect_laws(UniformDiscrete<TypeParam>(n));
 }
 
-// Every n up to 5000 and the largest: the outcome of u is floor(u n), also at the last u, and what is left of u lies in
-// [0,1) and gives u back.
+// For every n up to 5000 and the largest n, the outcome of u is floor(u n), also at the last u. u_remapped lies in
+// [0,1), and with the index it reproduces u.
 TYPED_TEST(DiscreteOver, UniformIsExactForEveryN) {
   using S = TypeParam;
   Pcg random(4);

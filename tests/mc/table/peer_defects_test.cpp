@@ -1,5 +1,4 @@
-// Where tables that renderers ship break, measured on their own code: each defect is named with the figure it gave
-// there, and must not be here.
+// Regression tests for defects that were observed in the tables of other renderers. Each comment states the defect.
 
 #include <mc/core/error.h>
 #include <mc/core/sum.h>
@@ -28,8 +27,7 @@ double total(const std::vector<double>& w) {
   return sum.value();
 }
 
-// D5. pbrt-v4, a sky of 1024 x 512 with a sun in one table: 424287 of 524288 cells are never sampled with the sun in
-// the middle, and 524277 with the sun at cell 10.
+// pbrt-v4: in a one-dimensional table of a sky with a bright sun, most cells are never sampled.
 TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
   for (const std::size_t sun : {std::size_t{10}, sky_cells / 2}) {
     const std::vector<double> w = sky(sun, 1e8);
@@ -42,8 +40,7 @@ TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
   }
 }
 
-// D5b. pbrt-v4, the same sky in two dimensions: in the row of the sun the cells to its right get 8 % too much or too
-// little, up to 74 %.
+// pbrt-v4: in a two-dimensional table of the same sky, cells in the row of the sun, to its right, get a wrong mass.
 TEST(PeerDefects, CellsInTheRowOfTheSunHaveTheirMass) {
   const std::size_t row = 100, sun = row * sky_width + 10;
   const std::vector<double> w = sky(sun, 1e8);
@@ -53,8 +50,9 @@ TEST(PeerDefects, CellsInTheRowOfTheSunHaveTheirMass) {
     ASSERT_NEAR(table.pmf(x, row) / (w[row * sky_width + x] / sum), 1, 1e-6) << x;
 }
 
-// D5. pbrt-v4: all zeros are sampled with pdf NaN or 0, one infinity makes everything NaN, a negative weight is taken
-// for its absolute value, denormals sum to 0. D7: so do its SampleDiscrete and (all zero) its alias table.
+// pbrt-v4: tables with only zero weights give pdf NaN or 0, and one infinite weight makes everything NaN. A negative
+// weight counts as its absolute value, and denormal weights sum to 0. SampleDiscrete has the same defects, and the
+// alias table fails for zero weights.
 TEST(PeerDefects, WeightsThatAreNoneAndWeightsAtTheEndsOfTheRange) {
   const double inf = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::denorm_min(),
                huge = std::numeric_limits<double>::max();
@@ -74,8 +72,8 @@ TEST(PeerDefects, WeightsThatAreNoneAndWeightsAtTheEndsOfTheRange) {
   }
 }
 
-// D6. pbrt-v4: alias tables of 65536 entries sample an entry 226 times too often; of half zeros, entries of weight 0.
-// The probabilities that the bins imply, from the place in each bin where the outcome changes.
+// pbrt-v4: large alias tables sample some entries far too often, and with zeros also entries of weight 0. Computes the
+// probabilities that the bins imply from the point in each bin where the outcome changes.
 TEST(PeerDefects, AliasTablesSampleWhatTheySay) {
   constexpr std::size_t size = 65536;
   for (const bool zeros : {false, true}) {
@@ -95,7 +93,7 @@ TEST(PeerDefects, AliasTablesSampleWhatTheySay) {
     for (std::size_t i = 0; i < size; ++i) {
       ASSERT_NEAR(table.pmf(i), w[i] / sum, 1e-15);
       ASSERT_TRUE(w[i] > 0 || mass[i] == 0) << i;
-      // Each of up to all the bins of an entry is known to 2^-30 of a bin.
+      // Bisection locates the change in each bin to 2^-30 of the bin.
       ASSERT_NEAR(mass[i], table.pmf(i), 0x1p-29 * (1.0 / size + table.pmf(i))) << i;
     }
   }

@@ -14,7 +14,7 @@ TYPED_TEST_SUITE(TableDist1DTest, Scalars);
 
 static_assert(mc::DiscreteDistribution<mc::TableDist1D<float>> && mc::InvertibleWarp<mc::TableDist1D<double>>);
 
-// Points stay in the cell they were drawn in, at its ends too, so never where the density is 0. n = 49: 1/49*49 < 1 in
+// Points stay in their cell, also at its ends, so the density is never 0. n = 49 is included because 1/49*49 < 1 in
 // double.
 TYPED_TEST(TableDist1DTest, PointsStayInCellsOfPositiveWeight) {
   using S = TypeParam;
@@ -48,8 +48,8 @@ TYPED_TEST(TableDist1DTest, InvertsSamples) {
   }
 }
 
-// At the ends of cells rounding may carry a point out, and what brings it back must be no more than rounding: of a
-// number near lo that is far less than of one near hi.
+// At the ends of cells rounding may move a point out. The correction must not exceed rounding, which is far smaller for
+// numbers near lo than near hi.
 TYPED_TEST(TableDist1DTest, InvertsTheEndsOfCells) {
   using S = TypeParam;
   const S eps = std::numeric_limits<S>::epsilon(), last = mc::one_minus_epsilon<S>;
@@ -65,7 +65,7 @@ TYPED_TEST(TableDist1DTest, InvertsTheEndsOfCells) {
     }
 }
 
-// Tables and intervals made by machine.
+// Random tables and intervals.
 TYPED_TEST(TableDist1DTest, InverseWithinItsBoundOnAnyInterval) {
   using S = TypeParam;
   const S eps = std::numeric_limits<S>::epsilon();
@@ -77,7 +77,7 @@ TYPED_TEST(TableDist1DTest, InverseWithinItsBoundOnAnyInterval) {
     weights[random.next32() % weights.size()] = 1;
     const S n = static_cast<S>(weights.size()), lo = std::exp2(20 * uniform() - 10) * (uniform() - S(0.5));
     const S hi = lo + std::exp2(20 * uniform() - 10), largest = std::max(std::abs(lo), std::abs(hi));
-    if (hi - lo < 8 * n * eps * largest) continue; // cells that S hardly tells apart
+    if (hi - lo < 8 * n * eps * largest) continue; // cells too narrow for S
     const mc::TableDist1D<S> table(weights, {lo, hi});
     for (int j = 0; j < 100; ++j) {
       const S u = uniform(), x = table.sample(u), size = std::max(std::abs(x), std::abs(lo));
@@ -96,7 +96,7 @@ TYPED_TEST(TableDist1DTest, DensityIsOffTheIntervalZero) {
   EXPECT_EQ(table.pdf(4), TypeParam(0.75));
 }
 
-// 524288 cells and a float: the cells that 24-bit numbers can meet are met with their own index.
+// 524288 cells in float: each cell that 24-bit numbers can reach is sampled with its own index.
 TYPED_TEST(TableDist1DTest, LargeTables) {
   using S = TypeParam;
   std::vector<double> w(524288);

@@ -62,7 +62,7 @@ TEST(TableDist2D, MassIsTheShareOfTheWeight) {
   for (std::size_t i = 0; i < w.size(); ++i) ASSERT_NEAR(table.pmf(i % 1024, i / 1024), w[i] / sum, 1e-15);
 }
 
-// A constant image of the sphere: each row's mass is its share of the solid angle.
+// A constant image of the sphere: the mass of each row is its share of the solid angle.
 TEST(TableDist2D, LatLongWeighsBySolidAngle) {
   const auto table = mc::TableDist2D<double>::from_lat_long(std::vector<double>(8 * 16, 1.0), 16, 8);
   for (std::size_t y = 0; y < 8; ++y) {
@@ -94,7 +94,7 @@ TEST(TableDist2D, InverseLiesBelowOneUpToTheEdge) {
   }
 }
 
-// What is refused is what was given, not what became of it.
+// Errors name the input weights, not the scaled ones.
 TEST(TableDist2D, LatLongNamesTheWeightsThatItGot) {
   const auto refusal = [](const std::vector<double>& weights, std::size_t width, std::size_t height) {
     return support::error_of([&] { mc::TableDist2D<double>::from_lat_long(weights, width, height); });

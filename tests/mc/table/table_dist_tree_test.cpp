@@ -12,7 +12,7 @@ TYPED_TEST_SUITE(TableDistTreeTest, Scalars);
 
 static_assert(mc::InvertibleWarp<mc::TableDistTree<float, 2>> && mc::InvertibleWarp<mc::TableDistTree<double, 5>>);
 
-// A ridge along the diagonal, and nothing far from it.
+// A ridge along the diagonal; 0 far from it.
 template <class S, int N> mc::TableDistTree<S, N> ridge(std::size_t leaves) {
   return mc::TableDistTree<S, N>::from_function(
       [](const mc::Vec<double, N>& x) {
@@ -35,7 +35,7 @@ TYPED_TEST(TableDistTreeTest, PointsStayInBoxesOfPositiveWeight) {
     ASSERT_TRUE(table.domain().contains(x));
     ASSERT_EQ(table.tree().leaf_of_x(x), table.tree().leaf_of_u(u));
     ASSERT_GT(table.pdf(x), 0);
-    // Boxes are halved four times or so along an axis: what rounding x costs is magnified by their densities at most.
+    // About four halvings along an axis: the density of a box magnifies the rounding of x by at most this bound.
     ASSERT_LE((table.invert(x) - u).cwiseAbs().maxCoeff(), 200 * std::numeric_limits<S>::epsilon());
   }
   EXPECT_EQ(table.pdf({S(1.1), S(0.5), S(0.5)}), 0);

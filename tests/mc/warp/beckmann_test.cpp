@@ -9,7 +9,7 @@ template <class S> class BeckmannNormalsOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BeckmannNormalsOver, Scalars);
 
-// r^2 reaches 6 at 256 random u, so (8 + 8 r^2) eps stays below 56.
+// r^2 stays below 6 for 256 random u, so the bound (8 + 8 r^2) eps stays below 56.
 TYPED_TEST(BeckmannNormalsOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const double a : {1e-4, 1e-2, 0.3, 1.0}) {

@@ -16,7 +16,7 @@ TYPED_TEST(ConeOver, ObeysTheLawsAtAnyAngle) {
                      {.name = fmt::format("angle {}", angle), .samples = 0, .invert_eps = 16, .pdf_eps = 16});
 }
 
-// A renderer that stores the cosine gives a cone of 1e-9 rad no solid angle at all: pi 1e-18 sr.
+// A cone of 1e-9 rad has a solid angle of pi 1e-18 sr. A cone stored by its rounded cosine would have none.
 TYPED_TEST(ConeOver, NarrowConesKeepTheirSolidAngle) {
   using S = TypeParam;
   const auto cone = UniformCone<S>::from_angle(S(1e-9));
@@ -41,8 +41,8 @@ TEST(UniformCone, FormsAgree) {
   EXPECT_NEAR(UniformCone<double>::from_one_minus_cos(1 - std::cos(angle)).pdf(z) / pdf, 1, 1e-14);
   EXPECT_NEAR(UniformCone<double>::from_sin2(sqr(std::sin(angle))).pdf(z) / pdf, 1, 1e-14);
   EXPECT_EQ(UniformCone<double>::from_angle(angle).pdf({std::sin(0.71), 0, std::cos(0.71)}), 0);
-  // The sphere of the Cornell box from the origin and from the floor below the light, and one that fills a sixth of a
-  // turn.
+  // Solid angles of the sphere in the Cornell box, from the origin and from the floor below the light, and of a sphere
+  // that subtends a sixth of a turn.
   EXPECT_NEAR(1 / UniformCone<double>::from_sin2(0.25).pdf(z), 0.841787214477, 1e-12);
 }
 

@@ -5,7 +5,7 @@
 namespace mc {
 namespace {
 
-// Deterministic laws here, at the bounds of the contract; the counts are taken over the whole catalogue.
+// Deterministic laws with the bounds of the contract. The statistical tests run over the whole catalogue.
 TEST(UniformDisk, ObeysTheLaws) {
   EXPECT_WARP_LAWS(UniformDisk<float>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
   EXPECT_WARP_LAWS(UniformDisk<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
@@ -16,8 +16,7 @@ TEST(UniformDiskPolar, ObeysTheLaws) {
   EXPECT_WARP_LAWS(UniformDiskPolar<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
 }
 
-// Why it is only for comparison: at the rim a side of one of 16 x 16 cells becomes 2 pi / 16 long, concentrically 0.16
-// at most.
+// At the rim the polar map stretches a side of one of 16 x 16 cells to 2 pi / 16, the concentric map to at most 0.16.
 TEST(UniformDiskPolar, StretchesStrataMoreThanTheConcentricMap) {
   const auto stretch = [](const auto& disk) {
     double longest = 0;

@@ -17,8 +17,8 @@ template <class S> class HalfVectorOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(HalfVectorOver, Scalars);
 
-// The deterministic laws; the counts are taken over the catalogue. Bounds that depend on the point have their own tests
-// below.
+// Options for the deterministic laws; the statistical tests run over the catalogue. Bounds that depend on the point are
+// tested separately below.
 LawOptions deterministic(std::string name, double sample_eps = 64, double pdf_eps = 64) {
   return {.name = std::move(name),
           .samples = 0,
@@ -34,7 +34,7 @@ TYPED_TEST(HalfVectorOver, ReflectionObeysTheLawsAtEveryRoughnessAndIncidence) {
     for (const double degrees : {0.0, 60.0, 89.9, 90.0})
       EXPECT_WARP_LAWS(Reflected(TrowbridgeReitzVisibleNormals<S>(at<S>(degrees), S(alpha), S(0.5 * alpha))),
                        deterministic(fmt::format("visible normals {}, {} degrees", alpha, degrees)));
-  for (const double degrees : {60.0, 120.0}) // from below too
+  for (const double degrees : {60.0, 120.0}) // also from below
     EXPECT_WARP_LAWS(Reflected(at<S>(degrees), BeckmannNormals<S>(S(0.3))),
                      deterministic(fmt::format("Beckmann, {} degrees", degrees)));
 }
@@ -51,7 +51,7 @@ TYPED_TEST(HalfVectorOver, RefractionObeysTheLawsAtEveryRoughnessAndIncidence) {
                    deterministic("nearly equal media", 64, HUGE_VAL));
   EXPECT_WARP_LAWS(RefractedIn(TrowbridgeReitzVisibleNormals<S>(at<S>(80), S(0.3)), S(100)),
                    deterministic("a hundredfold denser medium", 64, HUGE_VAL));
-  // The pole of the chart is up: seen from below, a needle of light leaves along it.
+  // The pole of the chart points up. From below, a narrow lobe leaves along it.
   EXPECT_WARP_LAWS(RefractedIn(Vec3<S>(0, 0, -1), TrowbridgeReitzNormals<S>(S(1e-4)), S(1.5)),
                    deterministic("from below"));
 }
@@ -90,7 +90,8 @@ TYPED_TEST(HalfVectorOver, RefractionIsAsPreciseAsItsCosines) {
     }
 }
 
-// What the head of half_vector.h states: the density by way of the direction, and the inverse, lose 1 / (alpha |s|).
+// The conditioning described at the top of half_vector.h: the density from the direction, and the inverse, lose a
+// factor 1 / (alpha |s|).
 TYPED_TEST(HalfVectorOver, ConditioningIsAsStated) {
   using S = TypeParam;
   const double eps = std::numeric_limits<S>::epsilon();
@@ -115,7 +116,7 @@ TYPED_TEST(HalfVectorOver, ConditioningIsAsStated) {
     }
 }
 
-// The density at the normal, against 50 digits: no loss at alpha = 1e-4.
+// The density at the normal against 50 digits: no loss at alpha = 1e-4.
 TYPED_TEST(HalfVectorOver, DensityAtTheNormalLosesNothing) {
   using S = TypeParam;
   const double eps = std::numeric_limits<S>::epsilon();

@@ -22,7 +22,7 @@ TYPED_TEST(HemisphereOver, NothingBelowTheHorizon) {
   EXPECT_EQ(CosineHemisphere<S>{}.pdf({S(0), S(0), S(-1)}), 0);
 }
 
-// Means of cos over the two densities: 1/2 and 2/3 (the in-ball mutant has 0.8). Alpha 1e-3, fixed seed.
+// The mean of cos is 1/2 and 2/3 for the two densities (0.8 for the in-ball mutant). Alpha 1e-3, fixed seed.
 TYPED_TEST(HemisphereOver, MeanCosine) {
   using S = TypeParam;
   Pcg random(5);

@@ -32,7 +32,8 @@ TYPED_TEST(HenyeyGreensteinOver, IsNotClampedNearOne) {
   }
 }
 
-// The mean cosine is g: at g = 0.9999 a clamp to 0.99 gave 0.99. Strata of u, so the error is that of the quadrature.
+// The mean cosine is g, also beyond 0.99, where some renderers clamp g. Averages over strata of u, so the error is that
+// of a quadrature rule.
 TEST(HenyeyGreenstein, MeanCosineIsG) {
   for (const double g : {-0.9999, -0.3, 0.9, 0.999, 0.9999}) {
     const HenyeyGreenstein<double> warp(g);

@@ -36,14 +36,15 @@ TYPED_TEST(LogisticOver, TrimmedObeysTheLawsInTailsAndOnShortIntervals) {
   }
 }
 
-// A tail whose density is next to the smallest number: nothing of it is lost, neither its pdf nor where it ends.
+// A tail with a density next to the smallest number. Neither the pdf nor the ends lose precision.
 TYPED_TEST(LogisticOver, TrimmedToATailAsThinAsTheScalarAllows) {
   using S = TypeParam;
   const double lo = sizeof(S) == sizeof(float) ? 80 : 700;
   for (const double length : {1e-3, 2e-3, 1.0, 20.0, 1000.0})
     for (const bool below : {false, true}) {
       const S a = S(below ? -lo - length : lo), b = S(below ? -lo : lo + length);
-      const S steps = (b - a) / (std::numeric_limits<S>::epsilon() * S(lo)); // fewer than 128 make no two cells
+      // Fewer than 128 steps are too few for two cells.
+      const S steps = (b - a) / (std::numeric_limits<S>::epsilon() * S(lo));
       EXPECT_WARP_LAWS(TrimmedLogistic<S>(1, a, b), {.name = fmt::format("[{}, {}]", a, b),
                                                      .samples = steps < 128 ? 0u : 20'000u,
                                                      .invert_eps = 8 * (lo + length) / std::min(1.0, length),

@@ -15,7 +15,7 @@ template <class S> class MixtureNOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(MixtureNOver, Scalars);
 
-// Directions toward `n` cones about random axes, some of which overlap.
+// Directions toward `n` cones about random axes; some of the cones overlap.
 template <class S, class C> auto cones(const C& choice) {
   std::vector<Rotated<UniformCone<S>>> parts;
   Pcg random(6);
@@ -31,7 +31,7 @@ TYPED_TEST(MixtureNOver, ObeysTheLaws) {
   EXPECT_WARP_LAWS(cones<S>(TableDist1D<S>(std::vector<double>{1, 0, 5, 2})), {.samples = 50'000, .sample_eps = 64});
 }
 
-// The filter of smallpt on one axis: tents about the centres of the halves of a pixel.
+// The pixel filter of smallpt on one axis: tents about the centres of the halves of a pixel.
 TYPED_TEST(MixtureNOver, TentsObeyTheLaws) {
   using S = TypeParam;
   for (const int n : {1, 2, 3}) {

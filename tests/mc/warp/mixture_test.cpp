@@ -13,7 +13,8 @@ template <class S> auto half_and_half(S a, S b) {
 }
 
 TEST(Mixture, ObeysTheLaws) {
-  // Stretching u0 magnifies its rounding by 1 / weight, and the rim of the cosine lobe by more: 64 eps of the sample.
+  // Stretching u0 magnifies its rounding by 1 / weight, and by more at the rim of the cosine lobe: 64 eps of the
+  // sample.
   EXPECT_WARP_LAWS(half_and_half(0.3f, 0.7f), {.samples = 50'000, .sample_eps = 64, .pdf_eps = 16});
   EXPECT_WARP_LAWS(half_and_half(0.3, 0.7), {.samples = 50'000, .sample_eps = 64, .pdf_eps = 16});
 }
@@ -51,7 +52,7 @@ TEST(Mixture, RefusesNonsense) {
 }
 
 } // namespace
-// A weight that is denormal beside the largest would give samples a density of 0.
+// A weight that is denormal relative to the largest would give samples a density of 0.
 TEST(Mixture, VanishingWeightsCountAsZero) {
   const mc::Mixture mixture({1e-41f, 1.0f}, mc::UniformInterval<float>(0, 1e6f),
                             mc::UniformInterval<float>(5e5f, 1e6f));

@@ -11,7 +11,7 @@ TYPED_TEST_SUITE(NormalOver, Scalars);
 
 TYPED_TEST(NormalOver, ObeysTheLaws) {
   using S = TypeParam;
-  // Out to 8 sigma the density is conditioned 1 + t^2 = 65.
+  // Up to 8 sigma the density has condition number 1 + t^2 = 65.
   for (const double sigma : {1e-10, 1.0, 1e10})
     EXPECT_WARP_LAWS(Normal<S>(S(0), S(sigma)), {.name = fmt::format("sigma {}", sigma),
                                                  .samples = sigma == 1.0 ? 50'000u : 0u,

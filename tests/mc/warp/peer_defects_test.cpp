@@ -1,5 +1,5 @@
-// Where samplers that renderers ship break, measured on their own code: each defect is named with the figure it gave
-// there, and must not be here. Bounds over whole ranges stand with each warp's laws.
+// Regression tests for defects that were observed in the warps of other renderers. Each comment states the defect. The
+// laws of each warp test the bounds over whole ranges.
 
 #include <mc/check/subject/oracle.h>
 #include <mc/random/pcg.h>
@@ -37,7 +37,8 @@ V at(double degrees) {
   return V(static_cast<float>(std::sin(t)), 0, degrees == 90 ? 0.0f : static_cast<float>(std::cos(t)));
 }
 
-// D1, M3. pbrt-v4, Mitsuba 3: from 2e-4 rad on the pdf is infinite and all directions are the axis; 5 % wrong at 1e-3.
+// pbrt-v4, Mitsuba 3: narrow cones have an infinite pdf and return only the axis; the error begins at angles of 1e-3
+// rad.
 TEST(PeerDefects, ConesDownTo1e9Radians) {
   for (const double angle : {1e-3, 2e-4, 1e-9}) {
     const auto cone = UniformCone<float>::from_angle(static_cast<float>(angle));
@@ -55,7 +56,7 @@ TEST(PeerDefects, ConesDownTo1e9Radians) {
   }
 }
 
-// D2. pbrt-v4: two of 2^27 cosine-distributed directions lie on the horizon, where the pdf is 0; u = (0, 1/2) does.
+// pbrt-v4: a few cosine-distributed directions lie on the horizon, where the pdf is 0; one of them is u = (0, 1/2).
 TEST(PeerDefects, CosineDirectionsNeverLieOnTheHorizon) {
   const CosineHemisphere<float> warp;
   for (int i = 0; i <= 4096; ++i)
@@ -66,7 +67,7 @@ TEST(PeerDefects, CosineDirectionsNeverLieOnTheHorizon) {
     }
 }
 
-// D4. pbrt-v4: g is clamped to 0.99, so g = 0.9999 has a peak 1e4 times too low; |g| < 1e-3 is sampled as uniform.
+// pbrt-v4: g is clamped to 0.99, so a lobe with g = 0.9999 has a far too low peak. |g| < 1e-3 is sampled uniformly.
 TEST(PeerDefects, HenyeyGreensteinIsNeitherClampedNorRounded) {
   const HenyeyGreenstein<float> peaked = HenyeyGreenstein<float>::from_one_minus_abs_g(1e-4f), faint(0.00099f);
   EXPECT_NEAR(peaked.pdf({0, 0, 1}) / (1.9999 / (4 * pi<double> * 1e-8)), 1, 16 * eps);
@@ -76,17 +77,17 @@ TEST(PeerDefects, HenyeyGreensteinIsNeitherClampedNorRounded) {
     mean_peaked += one_minus_z(peaked.sample(u)) / 1e5;
     mean_faint += faint.sample(u).z() / 1e5;
   }
-  EXPECT_NEAR(mean_peaked, 1e-4, 1e-6); // of 1 - cos
+  EXPECT_NEAR(mean_peaked, 1e-4, 1e-6); // mean of 1 - cos
   EXPECT_NEAR(mean_faint, 0.00099, 1e-6);
 }
 
-// M4. Mitsuba 3: kappa = 1e-9 has an infinite pdf and one direction; kappa = 1e8 integrates to 3 and knows three
-// cosines.
+// Mitsuba 3: kappa = 1e-9 gives an infinite pdf and a single direction. kappa = 1e8 integrates to 3 and gives three
+// different cosines.
 TEST(PeerDefects, VonMisesFisherFromUniformToNeedle) {
   for (const float kappa : {1e-9f, 1e-7f, 1e-4f, 1.0f, 1e6f, 1e8f}) {
     const VonMisesFisher<float> warp(kappa);
     std::set<float> distinct;
-    double mean = 0; // of 1 - cos, which is 1 - coth(kappa) + 1 / kappa
+    double mean = 0; // mean of 1 - cos; the exact value is 1 - coth(kappa) + 1 / kappa
     for (int i = 0; i < 10'000; ++i) {
       const V w = warp.sample({(static_cast<float>(i) + 0.5f) / 10'000, 0.1f});
       distinct.insert(w.x());
@@ -94,14 +95,13 @@ TEST(PeerDefects, VonMisesFisherFromUniformToNeedle) {
     }
     const double k = kappa, truth = k < 1e-3 ? 1 - k / 3 : 1 - 1 / std::tanh(k) + 1 / k;
     EXPECT_NEAR(mean / truth, 1, 1e-3) << kappa;
-    EXPECT_GE(distinct.size(), 4900u) << kappa; // x = sin is met twice, at either side of the equator
+    EXPECT_GE(distinct.size(), 4900u) << kappa; // each x = sin occurs twice, once on either side of the equator
     EXPECT_NEAR(warp.pdf({0, 0, 1}) * 2 * pi<double> * (k < 1e-3 ? 2 : (1 - std::exp(-2 * k)) / k), 1, 1e-4) << kappa;
   }
 }
 
-// D8, D9. pbrt-v4: at 4e-7 sr the pdf of a spherical triangle is 80 % off and 4 % of the samples have none; at 1e-6 sr
-// that of a rectangle is 30 % off, and at 2e-8 sr half of the samples have none. Solid angle to the second order: area
-// / distance^2.
+// pbrt-v4: the pdf of small spherical triangles and rectangles is far off, and some samples have none. The expected
+// solid angle is area / distance^2, exact to second order.
 TEST(PeerDefects, SphericalTrianglesAndRectanglesOf1e8Steradians) {
   for (const double edge : {1e-3, 1e-4}) {
     const auto e = static_cast<float>(edge);
@@ -119,8 +119,8 @@ TEST(PeerDefects, SphericalTrianglesAndRectanglesOf1e8Steradians) {
   }
 }
 
-// D10. pbrt-v4: at alpha = 1e-3 one of a hundred visible normals has a pdf 18 % off; at alpha = 1 and grazing incidence
-// 1.7e-4 of them have none; on the horizon it is infinite.
+// pbrt-v4: at small roughness some visible normals have an inaccurate pdf. At grazing incidence and alpha = 1 some have
+// pdf 0, and on the horizon the pdf is infinite.
 TEST(PeerDefects, VisibleNormalsAtSmallRoughnessAndOnTheHorizon) {
   for (const float alpha : {1e-3f, 1.0f})
     for (const double degrees : {0.0, 45.0, 89.99, 90.0}) {
@@ -135,13 +135,13 @@ TEST(PeerDefects, VisibleNormalsAtSmallRoughnessAndOnTheHorizon) {
     }
 }
 
-// D10b. pbrt-v4: a frame that is not orthogonal near the pole biases the mean of atan(slope / alpha), which is alpha
-// tan(theta) to first order, at alpha = 0.01 and 24 degrees by 0.0015 of 0.0045.
+// pbrt-v4: a frame that is not orthogonal near the pole biases the mean of atan(slope / alpha). To first order the mean
+// is alpha tan(theta); the bias at alpha = 0.01 and 24 degrees is a third of it.
 TEST(PeerDefects, VisibleNormalsNearThePoleAreNotSkewed) {
   const double t = 24 * std::numbers::pi / 180;
   const TrowbridgeReitzVisibleNormals<double> warp({std::sin(t), 0, std::cos(t)}, 0.01);
   double mean = 0;
-  constexpr int n = 500; // strata of u: the midpoint rule leaves less than 1e-4
+  constexpr int n = 500; // strata of u; the error of the midpoint rule is below 1e-4
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const Vec3<double> m = warp.sample({(i + 0.5) / n, (j + 0.5) / n});
@@ -150,8 +150,8 @@ TEST(PeerDefects, VisibleNormalsNearThePoleAreNotSkewed) {
   EXPECT_NEAR(mean, 0.01 * std::tan(t), 1e-4);
 }
 
-// M2. Mitsuba 3: Beckmann normals are NaN at u = (1/2, 1/2), and on the horizon with pdf 0 along the edges of the unit
-// square.
+// Mitsuba 3: Beckmann normals are NaN at u = (1/2, 1/2). Along the edges of the unit square they lie on the horizon
+// with pdf 0.
 TEST(PeerDefects, BeckmannAtTheMiddleAndTheEdges) {
   const BeckmannNormals<float> warp(0.3f);
   for (const float a : {0.0f, 0.25f, 0.5f, 0.75f, last})
@@ -160,8 +160,8 @@ TEST(PeerDefects, BeckmannAtTheMiddleAndTheEdges) {
   EXPECT_TRUE(std::isfinite(u[0]) && std::isfinite(u[1]));
 }
 
-// M1. Mitsuba 3: the concentric disk has points with |p| > 1, 6 % of them along the edge u0 = 0. Here beyond 1 by
-// rounding only, and those belong to the disk: none has pdf 0.
+// Mitsuba 3: points of the concentric disk with |p| > 1 have pdf 0. Here |p| exceeds 1 by rounding only, and such
+// points belong to the disk.
 TEST(PeerDefects, ConcentricDiskKeepsItsRim) {
   for (int i = 0; i < 65536; ++i) {
     const Vec2<float> p = UniformDisk<float>{}.sample({0, static_cast<float>(i) / 65536});
@@ -170,8 +170,8 @@ TEST(PeerDefects, ConcentricDiskKeepsItsRim) {
   }
 }
 
-// D18, M5. pbrt-v4, Mitsuba 3: a zero edge gives NaN at u1 = 0, weights of 1e30 NaN or a corner, of 1e-25 points
-// outside; nearly equal weights are off by 4e-4.
+// pbrt-v4, Mitsuba 3: a zero edge gives NaN at u1 = 0. Weights of 1e30 give NaN or a corner, weights of 1e-25 give
+// points outside, and nearly equal weights are inaccurate.
 TEST(PeerDefects, BilinearWithZeroEdgesAndExtremeWeights) {
   const auto expect_good = [](const Bilinear<float>& warp, const Vec2<float>& u) {
     const Vec2<float> p = warp.sample(u), back = warp.invert(p);
@@ -183,12 +183,11 @@ TEST(PeerDefects, BilinearWithZeroEdgesAndExtremeWeights) {
   expect_good(Bilinear<float>(1e30f, 1e30f, 2e30f, 3e30f), {0.3f, 0.4f});
   expect_good(Bilinear<float>(1e-25f, 2e-25f, 1e-25f, 3e-25f), {0.3f, 0.4f});
   for (const float w : {1.0001f, 1.0003f}) expect_good(Bilinear<float>(1, w, 1, w), {0.3f, 0.4f});
-  EXPECT_THROW(Bilinear<float>(0, 0, 0, 0), Error); // sampled as NaN there
+  EXPECT_THROW(Bilinear<float>(0, 0, 0, 0), Error); // NaN in those renderers
   EXPECT_THROW(Linear<float>(0, 0), Error);
 }
 
-// D11. pbrt-v4: the trimmed exponential knows 18 numbers at rate 1e-6, one at 1e-8, and is NaN at 0, where it is
-// uniform.
+// pbrt-v4: the trimmed exponential returns few distinct numbers at small rates. At rate 0 it is NaN instead of uniform.
 TEST(PeerDefects, TrimmedExponentialOfAnyRate) {
   for (const float rate : {0.0f, 1e-8f, 1e-6f, 1e-3f, 1.0f}) {
     const TrimmedExponential<float> warp(rate, 1);
@@ -200,7 +199,7 @@ TEST(PeerDefects, TrimmedExponentialOfAnyRate) {
   }
 }
 
-// D12. At u = 0 and 1 - ulp: infinities, NaN and a normal deviate of -4e5 sigma there.
+// Infinities, NaN and an extreme normal deviate occur in other renderers at u = 0 and 1 - ulp.
 TEST(PeerDefects, EndsOfTheUnitInterval) {
   for (const float u : {0.0f, 0.5f, last}) {
     const auto finite = [&](const char* name, const auto& warp) {
@@ -219,8 +218,7 @@ TEST(PeerDefects, EndsOfTheUnitInterval) {
   }
 }
 
-// pbrt-v4 before 2025: Box and Muller's pair was NaN for three quarters of all u; at u = 1 it is infinite still, and -0
-// at u = 0.
+// pbrt-v4 before 2025: the Box-Muller pair is NaN for most u. Later versions are infinite at u = 1 and -0 at u = 0.
 TEST(PeerDefects, IsotropicNormalEverywhere) {
   for (const float a : {0.0f, 0x1p-24f, 0.5f, last})
     for (const float b : {0.0f, 0.25f, 0.5f, last}) {
@@ -229,7 +227,7 @@ TEST(PeerDefects, IsotropicNormalEverywhere) {
     }
 }
 
-// M7. Mitsuba 3: inverses at the pole are NaN.
+// Mitsuba 3: inverses at the pole are NaN.
 TEST(PeerDefects, InversesAtThePoleAreNumbers) {
   const V pole(0, 0, 1);
   const auto good = [](const Vec2<float>& u) { return u[0] >= 0 && u[0] < 1 && u[1] >= 0 && u[1] < 1; };

@@ -16,7 +16,8 @@ template <class S> std::array<Vec3<S>, 3> axes() {
           Vec3<S>(Vec3<S>(1, 1, S(-1e-3)).normalized())};
 }
 
-// u1 is known to eps / sin(theta), which comes down to 1/100 in 20000 points; the cosine's pdf to eps / z.
+// u1 is accurate to eps / sin(theta), and the smallest sin(theta) in 20000 points is about 1/100. The pdf of the cosine
+// is accurate to eps / z.
 TYPED_TEST(RotatedOver, ObeysTheLawsAboutAnyAxis) {
   using S = TypeParam;
   for (const Vec3<S>& n : axes<S>()) {

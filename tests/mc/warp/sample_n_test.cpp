@@ -16,7 +16,7 @@ namespace mc {
 namespace {
 
 template <class S> std::vector<S> numbers(std::size_t n, std::uint64_t seed) {
-  // The ends and the middle first, then random.
+  // The ends and the middle first, then random numbers.
   std::vector<S> u{S(0), one_minus_epsilon<S>, S(0.5), S(0.25), S(0.75)};
   Pcg random(seed);
   while (u.size() < n) u.push_back(random.uniform<S>());

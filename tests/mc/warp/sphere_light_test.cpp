@@ -9,7 +9,7 @@ template <class S> class SphereLightOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SphereLightOver, Scalars);
 
-// Far, grazing, on the surface, inside and at the centre.
+// Viewers far away, at grazing distance, on the surface, inside and at the centre.
 TYPED_TEST(SphereLightOver, ObeysTheLawsAtEveryDistance) {
   using S = TypeParam;
   for (const double radius : {1e-15, 1e-8, 1e-3, 0.5, 0.999999, 1.0, 1.5}) {
@@ -22,7 +22,7 @@ TYPED_TEST(SphereLightOver, ObeysTheLawsAtEveryDistance) {
   }
 }
 
-// Viewers next to the surface on all sides: the solid angle is that of 50 digits to 8 eps, for any scale.
+// Viewers next to the surface on all sides: the solid angle agrees with 50 digits to 8 eps at any scale.
 TYPED_TEST(SphereLightOver, GrazingViewersSeeTheRightAngle) {
   using S = TypeParam;
   Pcg random(3);

@@ -10,8 +10,7 @@ TEST(UniformSphere, ObeysTheLaws) {
   EXPECT_WARP_LAWS(UniformSphere<double>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 2});
 }
 
-// The integral of cos^2 over the sphere is 4 pi / 3 (an early edition of the book prints 8 pi / 3). Alpha 1e-3, fixed
-// seed.
+// The integral of cos^2 over the sphere is 4 pi / 3. Alpha 1e-3, fixed seed.
 TEST(UniformSphere, CosineSquared) {
   Pcg random(6);
   const UniformSphere<double> warp;

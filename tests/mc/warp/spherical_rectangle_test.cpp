@@ -9,7 +9,7 @@ template <class S> class SphericalRectangleOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SphericalRectangleOver, Scalars);
 
-// Edges 1e-4 at distance 1 are 1e-8 sr; aspects 1 and 20, either orientation.
+// Edges of 1e-4 at distance 1 subtend 1e-8 sr. Aspect ratios 1 and 20 in both orientations.
 TYPED_TEST(SphericalRectangleOver, ObeysTheLawsFromHugeToTiny) {
   using S = TypeParam;
   for (const double edge : {30.0, 1.0, 0.1, 1e-2, 1e-4})

@@ -9,7 +9,7 @@ template <class S> class SphericalTriangleOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SphericalTriangleOver, Scalars);
 
-// Edges 1e-4 at distance 1 are 5e-9 sr; aspects 1 and 20, either orientation.
+// Edges of 1e-4 at distance 1 subtend 5e-9 sr. Aspect ratios 1 and 20 in both orientations.
 TYPED_TEST(SphericalTriangleOver, ObeysTheLawsFromHugeToTiny) {
   using S = TypeParam;
   for (const double edge : {30.0, 1.0, 0.1, 1e-2, 1e-4})

@@ -1,5 +1,5 @@
-// Every warp at random parameters over its whole legal range keeps the bounds it states, against 50 digits. The same
-// with thousands of parameters: bench_sweep.
+// Checks the bounds of every warp against 50 digits, at random parameters over their whole legal range. bench_sweep
+// does the same with thousands of parameters.
 #include "../../../bench/mc/warp/sweep/sweep.h"
 
 #include <gtest/gtest.h>

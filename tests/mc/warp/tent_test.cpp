@@ -20,7 +20,7 @@ TYPED_TEST(TentOver, ObeysTheLaws) {
                                                 .pdf_eps = 16});
 }
 
-// Variance of the tent of half width h: h^2 / 6. Alpha 1e-3, fixed seed.
+// The variance of a tent of half width h is h^2 / 6. Alpha 1e-3, fixed seed.
 TYPED_TEST(TentOver, Variance) {
   using S = TypeParam;
   Pcg random(8);

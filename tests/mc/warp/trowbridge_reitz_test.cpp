@@ -15,7 +15,7 @@ template <class S> class TrowbridgeReitz : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(TrowbridgeReitz, Scalars);
 
-// The deterministic laws: edges, inverse, Jacobian, 50 digits. The statistical ones run in the catalogue's sweep.
+// For the deterministic laws: edges, inverse, Jacobian, 50 digits. The statistical tests run over the catalogue.
 constexpr std::uint64_t few = 50'000;
 
 TYPED_TEST(TrowbridgeReitz, NormalsObeyTheLaws) {
@@ -48,7 +48,7 @@ TYPED_TEST(TrowbridgeReitz, EveryVisibleNormalHasADensity) {
     for (const double degrees : {0.0, 45.0, 89.99, 90.0}) {
       const TrowbridgeReitzVisibleNormals<S> warp(at<S>(degrees, 2.0), S(a));
       for (int i = 0; i < 50000; ++i) {
-        // Half of the points lie where reflections leave along the surface: u1 near 1.
+        // Half of the points have u1 near 1, where reflections leave along the surface.
         Vec2<S> u = random.point<S, 2>();
         if (i % 2) u[1] = std::min(S(1 - u[1] * S(1e-5)), one_minus_epsilon<S>);
         const S pdf = warp.pdf(warp.sample(u));

@@ -9,7 +9,7 @@ template <class S> class VonMisesFisherOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(VonMisesFisherOver, Scalars);
 
-// kappa t reaches 6 at 256 random u, so (8 + 4 kappa t) eps stays below 32.
+// kappa t stays below 6 for 256 random u, so the bound (8 + 4 kappa t) eps stays below 32.
 TYPED_TEST(VonMisesFisherOver, ObeysTheLawsFromUniformToNeedle) {
   using S = TypeParam;
   for (const double kappa : {0.0, 1e-9, 1e-3, 1.0, 3.0, 5.0, 30.0, 1e4, 1e8}) {
@@ -22,7 +22,7 @@ TYPED_TEST(VonMisesFisherOver, ObeysTheLawsFromUniformToNeedle) {
   }
 }
 
-// The last u lie next to -z, where 1 - z no longer knows how far.
+// The last u lie next to -z, where 1 - z has lost the digits of the distance.
 TYPED_TEST(VonMisesFisherOver, TheFarPoleKeepsItsDigits) {
   using S = TypeParam;
   const S step = std::numeric_limits<S>::epsilon() / 2;
