@@ -1,5 +1,5 @@
-// Every constructor and every function that takes data refuses nonsense with one line: what, which, its value, what is
-// needed.
+// Every constructor and every function with data arguments rejects invalid input with a one-line message. The message
+// names the subject, the value and the requirement.
 
 #include "support/files.h"
 
@@ -63,7 +63,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::nume
 using V = Vec3<double>;
 using Weights = std::vector<double>;
 
-// A call that must fail, what its message must hold: the subject, the value, the need.
+// A call that must fail, and substrings that its message must contain.
 struct Row {
   std::function<void()> call;
   std::vector<std::string> says;
@@ -77,7 +77,7 @@ void expect_refused(const std::vector<Row>& rows) {
   }
 }
 
-// A parameter of one number: each bad value must be in the message.
+// Adds rows for a parameter of one number. The message must contain each bad value.
 template <class Make>
 void add(std::vector<Row>& rows, const std::string& subject, const std::string& need, std::initializer_list<double> bad,
          Make make) {
@@ -238,7 +238,7 @@ TEST(BadInput, Integrate) {
   rows.push_back({[=] { integrate_rqmc(f, 0, 64); }, {"integrate:", "dimension 0"}});
   rows.push_back({[=] { integrate_rqmc(f, 2, 64, 1); }, {"integrate:", "1 replicates"}});
   rows.push_back({[] { parse_method("vega"); }, {"unknown method 'vega'", "did you mean 'vegas'?"}});
-  // A value that is not finite: how many, and the first point.
+  // Values that are not finite: the message contains their number and the first point.
   for (const Method method : {Method::plain, Method::stratified, Method::rqmc, Method::vegas, Method::automatic}) {
     IntegrateOptions o;
     o.method = method;

@@ -118,7 +118,7 @@ TEST_F(FileTest, AnOutputFolderIsMade) {
             "cannot write '" + (made / "d.txt").string() + "': it is a folder; name a file in it");
 }
 
-// /dev/full accepts the open and refuses the bytes, as a full disk does.
+// Opening /dev/full succeeds and writing to it fails, as on a full disk.
 TEST_F(FileTest, FullDisk_Throws) {
   const std::string path = folder / "a.txt";
   EXPECT_EQ(message([&] {
@@ -139,7 +139,7 @@ TEST_F(FileTest, Link_IsFollowedAndKept) {
   fs::create_symlink("a.txt", link);
   fs::create_symlink("../link.txt", folder / "deep" / "up.txt");
   fs::create_symlink("deep/up.txt", chain);
-  mc::write_file(chain, "through four names"); // the last does not exist yet
+  mc::write_file(chain, "through four names"); // the last target does not exist yet
   EXPECT_EQ(mc::read_file(path), "through four names");
   EXPECT_FALSE(fs::is_symlink(path));
   EXPECT_TRUE(fs::is_symlink(link) && fs::is_symlink(chain));
@@ -159,7 +159,7 @@ TEST_F(FileTest, KeepsPermissions) {
 TEST_F(FileTest, NamedPipe_ReceivesTheBytesAndIsKept) {
   const std::string path = folder / "pipe.txt";
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
-  const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK); // so that no thread is needed: a pipe holds 64 KiB
+  const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK); // needs no thread, because a pipe buffers 64 KiB
   ASSERT_GE(reader, 0);
   std::array<char, 64> buffer{};
   const auto received = [&] {
@@ -190,7 +190,7 @@ TEST_F(FileTest, OpenDescriptor_IsWrittenAtItsOffset) {
             fmt::format("cannot write '/dev/fd/{0}': descriptor {0} is not open", log));
 }
 
-// A node of our own like /dev/full, which takes the open and refuses the bytes. Making one needs root.
+// Uses a device node like /dev/full, where opening succeeds and writing fails. Creating it needs root.
 TEST_F(FileTest, Device_WriteFails_ThrowsAndKeepsTheDevice) {
   const std::string full = folder / "full.txt", null = folder / "null.txt";
   if (mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0 ||

@@ -48,7 +48,8 @@ TEST(Parallel, ReductionHasTheSameBitsForAnyThreadCount) {
   }
 }
 
-// Else what a loop's body holds, a lock say, would be asked for again below it, and stacks would grow with the loop.
+// A waiting thread that ran outer tasks could lock a mutex of the loop body twice, and its stack would grow with the
+// loop.
 TEST(Parallel, NestedLoop_WhileWaiting_RunsNoOuterTask) {
   thread_local int depth = 0;
   std::atomic<int> deepest = 0;

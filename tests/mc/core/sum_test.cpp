@@ -15,7 +15,7 @@ TEST(CompensatedSum, SurvivesCancellation) {
 TEST(CompensatedSum, TenMillionTenths) {
   mc::CompensatedSum sum;
   for (int i = 0; i < 10'000'000; ++i) sum.add(0.1);
-  // The double nearest to 0.1 times 1e7, rounded once.
+  // The double nearest to 0.1, times 1e7, rounded once.
   EXPECT_LE(std::abs(sum.value() - static_cast<double>(1e7L * static_cast<long double>(0.1))), 2e-10);
 }
 

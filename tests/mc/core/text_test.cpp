@@ -81,7 +81,8 @@ TEST(Text, EditDistance) {
   EXPECT_EQ(mc::edit_distance("ca", "abc"), 3u) << "a swapped pair is not edited again";
 }
 
-// A metric on words: symmetric, 0 for equal words only, and at most the number of edits that made one from the other.
+// Checks that the edit distance is symmetric, 0 only for equal words, and at most the number of edits between the
+// words.
 TEST(Text, EditDistanceIsAMetric) {
   mc::Pcg random(7);
   const auto letter = [&] { return static_cast<char>('a' + random.uniform<double>() * 3); };
@@ -93,7 +94,7 @@ TEST(Text, EditDistanceIsAMetric) {
     const std::size_t edits = static_cast<std::size_t>(trial % 4);
     for (std::size_t i = 0; i < edits; ++i) b.insert(b.begin() + place(b.size() + 1), letter());
     const std::size_t d = mc::edit_distance(a, b);
-    EXPECT_EQ(d, edits) << a << " " << b; // insertions alone: the lengths differ by as many
+    EXPECT_EQ(d, edits) << a << " " << b; // insertions only, so the lengths differ by their number
     EXPECT_EQ(d, mc::edit_distance(b, a));
     std::string c = b;
     if (!c.empty()) c[static_cast<std::size_t>(place(c.size()))] = letter();

@@ -8,7 +8,7 @@
 namespace mc {
 namespace {
 
-// Distance in units of the last place of the exact value; of the smallest normal number where that is 0.
+// Error in units of the last place of the exact value, or of the smallest normal number near 0.
 template <class S, class T> double ulps(S got, const T& exact) {
   using std::abs;
   const S near = abs(static_cast<S>(exact)), least = std::numeric_limits<S>::min();
@@ -16,8 +16,8 @@ template <class S, class T> double ulps(S got, const T& exact) {
   return static_cast<double>(T(abs(T(T(got) - exact)) / T(place)));
 }
 
-// Every multiple of 2^-24: all that uniform<float> gives. Double is exact enough to judge float: its own error is 2^-29
-// ulp.
+// Covers every multiple of 2^-24, all values of uniform<float>. The double version is an accurate reference: its error
+// is 2^-29 float ulp.
 TEST(Turns, CosSinOfEveryFloatUniformIsWithinTwoUlps) {
   double worst = 0;
   for (std::uint32_t i = 0; i < 1u << 24; ++i) {
@@ -30,7 +30,7 @@ TEST(Turns, CosSinOfEveryFloatUniformIsWithinTwoUlps) {
   EXPECT_LE(worst, 2);
 }
 
-// Double, and float between its multiples of 2^-24, against 50 digits; half of the points close to the zeros.
+// Compares double, and float between multiples of 2^-24, with 50 digits. Half of the points are close to the zeros.
 template <class S> double worst_ulps() {
   Pcg random(12);
   double worst = 0;
@@ -73,7 +73,7 @@ TEST(Turns, AzimuthStaysInTheUnitInterval) {
   EXPECT_EQ(azimuth_turns(-infinity<double>, infinity<double>), 0.375);
 }
 
-// Points of every octant, of sizes from denormal to the largest number; many near the axes and the diagonals.
+// Points of every octant with sizes from denormal to the largest number, many near the axes and the diagonals.
 template <class S> double worst_ulps_of_turn() {
   Pcg random(13);
   double worst = 0;

@@ -32,7 +32,7 @@ TEST(Types, ChooseTakesEitherSideWhole) {
   EXPECT_EQ(mc::choose(true, Oracle(3), Oracle(4)), 3);
 }
 
-// [JeannerodLouvetMuller13]: 1.5 ulp, measured against 50 digits on products that nearly cancel.
+// Checks the bound of 1.5 ulp [JeannerodLouvetMuller13] on products that nearly cancel.
 TEST(Types, DifferenceOfProductsDoesNotCancel) {
   mc::Pcg random(3);
   double worst = 0;
@@ -47,7 +47,7 @@ TEST(Types, DifferenceOfProductsDoesNotCancel) {
   EXPECT_LE(worst, 1.5);
 }
 
-// Whatever this file is compiled for: no vector asks for more than the 16 bytes that every x86-64 and ARM64 has.
+// No vector may require more than the 16-byte alignment of every x86-64 and ARM64, for any compiler flags.
 TEST(Types, VectorsAreLaidOutTheSameUnderAllFlags) {
   static_assert(alignof(mc::Vec<double, 4>) == alignof(double) && sizeof(mc::Vec<double, 4>) == 32);
   static_assert(alignof(mc::Vec<float, 8>) == alignof(float) && alignof(mc::Vec<double, 8>) == alignof(double));

@@ -22,7 +22,7 @@ TEST(RealLine, Chart) {
   support::expect_domain_laws(mc::RealLine<double>(0, 1e-3), 4);
 }
 
-// Far out on either side v keeps its relative precision toward 0, and 1 - v its absolute one.
+// For large |x|, v keeps its relative precision near 0 and 1 - v its absolute precision near 1.
 TEST(RealLine, TailsDoNotCancel) {
   const mc::RealLine<double> line;
   EXPECT_NEAR(line.to_unit(-1e8) * 2e8, 1, 1e-7);
@@ -30,7 +30,7 @@ TEST(RealLine, TailsDoNotCancel) {
   EXPECT_EQ(line.to_unit(0), 0.5);
 }
 
-// 1 - v is rounded before it is multiplied by lo: one point in 60 lay below lo here.
+// 1 - v is rounded before the product with lo, which without clamping would move some points below lo.
 TEST(Interval, NoPointIsRoundedOutOfIt) {
   mc::Pcg random(1);
   for (int i = 0; i < 20'000; ++i) {

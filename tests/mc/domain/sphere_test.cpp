@@ -18,7 +18,7 @@ TEST(Sphere, TheNorthPoleKeepsItsPrecision) {
   }
 }
 
-// Directions that were rounded to float, whose z says nothing: the chart tells them apart at both poles.
+// For directions rounded to float near a pole, z is exactly 1 or -1. The chart must still distinguish them.
 TEST(Sphere, RoundedDirectionsKeepTheirPlaceAtThePoles) {
   for (const float r : {1e-4f, 1e-6f})
     for (const float z : {1.0f, -1.0f}) {
@@ -27,7 +27,7 @@ TEST(Sphere, RoundedDirectionsKeepTheirPlaceAtThePoles) {
     }
 }
 
-// A reflection in a vector that was normalised, as renderers write it, is not normalised again.
+// Reflections about a normalised vector are not normalised again by renderers, and must count as unit.
 TEST(Sphere, ContainsReflectionsInNormalisedVectors) {
   mc::Pcg random(1);
   const auto unit = [&] {

@@ -5,7 +5,7 @@
 namespace {
 
 TEST(Triangle, Chart) {
-  // The second coordinate is divided by 1 - b0: 2000 points come within 1e-3 of that corner.
+  // The second coordinate is divided by 1 - b0, so the samples must come close to that corner.
   support::expect_domain_laws(mc::Triangle<float>(), 4000);
   support::expect_domain_laws(mc::Triangle<double>(), 4000);
 }

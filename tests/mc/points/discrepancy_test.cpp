@@ -21,7 +21,7 @@ struct Expected {
   double l2_star, wraparound_square, centered_square;
 };
 
-// scipy.stats.qmc.discrepancy of SciPy 1.10.1, methods L2-star (a root), WD and CD (squares), of scattered(n, dim).
+// scipy.stats.qmc.discrepancy of SciPy 1.10.1 for scattered(n, dim), methods L2-star (root), WD and CD (squares).
 constexpr Expected of_scipy[] = {
     {1, 1, 0.57480750789027713, 0.16666666666666674, 0.33040367112703106},
     {2, 1, 0.5728986818442765, 0.16520183556351564, 0.32821289965890954},
@@ -42,7 +42,7 @@ TEST(Discrepancy, AgreesWithScipy) {
   }
 }
 
-// By hand, as fractions of the square; to the bound that the header states.
+// Exact fractions of the square, within the documented error bound.
 TEST(Discrepancy, MatchesKnownValues) {
   const auto expect = [](double root, double square) { EXPECT_NEAR(root * root, square, 1e-13 / 9); };
   const std::vector<double> middle = {0.5, 0.5}, four = {.25, .25, .25, .75, .75, .25, .75, .75};
@@ -53,12 +53,12 @@ TEST(Discrepancy, MatchesKnownValues) {
   expect(mc::l2_star_discrepancy({shifted, 2}), 5567.0 / 1179648);
   expect(mc::centered_discrepancy({shifted, 2}), 7871.0 / 1179648);
   expect(mc::wraparound_discrepancy({shifted, 2}), 1457.0 / 147456);
-  // One point: the share in a box is 1 with probability 1/2 on each axis; E (1_B - V)^2 = 2^-d - 3^-d.
+  // One point: the share in a box is 1 with probability 1/2 on each axis, so E (1_B - V)^2 = 2^-d - 3^-d.
   expect(mc::periodic_l2_discrepancy({middle, 2}), 1.0 / 4 - 1.0 / 9);
 }
 
-// The mean over boxes with uniform corners and lengths, as it is defined, of 2e5 random boxes: to 2 %, five standard
-// errors or more.
+// Compares with the definition, the mean over 2e5 random boxes with uniform corners and lengths. The bound of 2 % is at
+// least five standard errors.
 TEST(Discrepancy, PeriodicIsTheMeanOverBoxesThatWrap) {
   const std::vector<double> x = scattered(40, 2);
   const PointList p{x, 2};
@@ -97,7 +97,7 @@ TEST(Discrepancy, PeriodicOnesAreShiftInvariant) {
   EXPECT_NEAR(mc::smallest_distance({x, 3}).periodic, mc::smallest_distance({moved, 3}).periodic, 1e-13);
 }
 
-// Means of 400 sets against the formulas, within five of their standard errors.
+// Compares means of 400 sets with the formulas, within five standard errors.
 TEST(Discrepancy, ExpectationsOfRandomAndJitteredPoints) {
   struct Mean {
     double sum = 0, squares = 0;
@@ -151,7 +151,7 @@ TEST(SmallestDistance, MatchesBruteForce) {
   }
 }
 
-// Within 8 %, three standard errors: the mean of 400 sets has a standard error of 2.6 %.
+// The mean of 400 sets has a standard error of 2.6 %, so the bound of 8 % is three standard errors.
 TEST(SmallestDistance, OfRandomPointsIsThatOfThePoissonLimit) {
   double mean = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed)

@@ -18,10 +18,10 @@ TEST(NetQuality, MatchesKnownNets) {
   EXPECT_EQ(net_quality({net, 2}), 0);
   EXPECT_EQ(net_quality({two, 2}), 0);
   ASSERT_TRUE(net_quality({four, 4}).has_value());
-  EXPECT_LE(*net_quality({four, 4}), 3); // as its header states
+  EXPECT_LE(*net_quality({four, 4}), 3); // the documented quality of PaddedSobol4D
 }
 
-// Four points at the centres of the quarters: each half holds two, and a quarter of either axis two or none.
+// Four points at the centres of the quarters: each half contains two, and each quarter of an axis two or none.
 TEST(NetQuality, OfAGrid) {
   const std::vector<double> grid = {.25, .25, .25, .75, .75, .25, .75, .75};
   EXPECT_EQ(net_quality({grid, 2}), 1);
@@ -32,7 +32,7 @@ TEST(NetQuality, NotANet_ReturnsNothing) {
                             random = test::points_of(mc::Independent{3}, 64, 2), same(64, 0.5);
   EXPECT_GT(net_quality({jittered, 2}), 0);
   EXPECT_GT(net_quality({random, 2}), 1);
-  EXPECT_EQ(net_quality({same, 2}), 5); // all of them in one point
+  EXPECT_EQ(net_quality({same, 2}), 5); // all points are equal
   EXPECT_FALSE(net_quality({test::scattered(48, 2), 2}).has_value());
   EXPECT_FALSE(net_quality({random, 2}, 10).has_value()) << "not enough work";
 }

@@ -10,8 +10,8 @@
 
 namespace test {
 
-/// Multiples of 1 / 1021 that have no pattern: in Python, [[((i+1) * a[k] * (k+3) % 1021) / 1021 for k in range(dim)]
-/// for i in range(n)].
+/// Multiples of 1 / 1021 without a pattern. In Python: [[((i+1) * a[k] * (k+3) % 1021) / 1021 for k in range(dim)] for
+/// i in range(n)].
 inline std::vector<double> scattered(std::uint64_t n, std::uint64_t dim) {
   constexpr std::uint64_t a[] = {1, 377, 610, 233, 89, 144, 55, 34};
   std::vector<double> points;
@@ -28,7 +28,7 @@ template <mc::Sampler T> std::vector<double> points_of(const T& sampler, std::ui
   return points;
 }
 
-/// i / 8 and its three bits reversed, plus a shift.
+/// Hammersley points (i / 8, reversed bits of i / 8), shifted.
 inline std::vector<double> hammersley(double shift) {
   std::vector<double> points;
   for (const int i : {0, 4, 2, 6, 1, 5, 3, 7}) {
@@ -39,7 +39,7 @@ inline std::vector<double> hammersley(double shift) {
   return points;
 }
 
-/// The star discrepancy by every box between coordinates, open and closed.
+/// Star discrepancy by enumeration of all open and closed boxes with corners on the coordinates.
 inline double star_by_all_boxes(mc::PointList p) {
   std::vector<std::vector<double>> grid(p.dim);
   for (std::size_t k = 0; k < p.dim; ++k) {

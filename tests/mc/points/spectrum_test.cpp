@@ -17,8 +17,8 @@ TEST(Spectrum, OfOnePointIsOne) {
   for (const double power : mc::radial_power_spectrum({x, 2}, 20)) EXPECT_NEAR(power, 1, 1e-12);
 }
 
-// The power of a 4x4 grid is 16 where both frequencies are multiples of 4, else 0. Ring 4 holds round(|f|) = 4: the
-// four points (+-4, 0), (0, +-4) among 32.
+// The power of a 4x4 grid is 16 where both frequencies are multiples of 4, and 0 elsewhere. Ring 4 contains the 32
+// frequencies with round(|f|) = 4, among them (+-4, 0) and (0, +-4).
 TEST(Spectrum, OfAGridIsItsDual) {
   std::vector<double> x;
   for (int i = 0; i < 4; ++i)
@@ -31,8 +31,8 @@ TEST(Spectrum, OfAGridIsItsDual) {
   for (const std::size_t k : {0u, 1u, 2u, 4u}) EXPECT_NEAR(power[k], 0, 1e-12);
 }
 
-// Means of 300 sets: a ring of c frequencies, c / 2 of them free, has a relative standard error of about
-// sqrt(2 / (300 c)); five of them are allowed.
+// Means of 300 sets. A ring of c frequencies, c / 2 of them independent, has a relative standard error of about sqrt(2
+// / (300 c)). The bound is five of these.
 TEST(Spectrum, ExpectationsOfRandomAndJitteredPoints) {
   constexpr int rings = 12, sets = 300;
   std::vector<double> random(rings, 0.0), jittered(rings, 0.0);
@@ -53,7 +53,7 @@ TEST(Spectrum, ExpectationsOfRandomAndJitteredPoints) {
   }
 }
 
-// Of jittered points in space the first two axes are as even as the cells are wide.
+// For jittered points in three dimensions, the cell width determines the spectrum of the first two axes.
 TEST(Spectrum, OfJitteredPointsInSpace) {
   constexpr int rings = 8, sets = 300;
   std::vector<double> mean(rings, 0.0);

@@ -14,7 +14,7 @@
 
 namespace {
 
-// Random, even and jittered sets, coordinates that repeat, 0 among them, 1 to 4 dimensions.
+// Random, Sobol' and jittered sets, repeated coordinates including 0, in 1 to 4 dimensions.
 TEST(StarDiscrepancy, MatchesBruteForce) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const auto dim = static_cast<std::uint32_t>(1 + seed % 4);
@@ -32,7 +32,7 @@ TEST(StarDiscrepancy, MatchesBruteForce) {
   }
 }
 
-// By exact rational arithmetic.
+// Reference values by exact rational arithmetic.
 TEST(StarDiscrepancy, MatchesKnownValues) {
   struct {
     std::size_t n, dim;
@@ -58,7 +58,7 @@ TEST(StarDiscrepancy, OnALineItIsNiederreitersFormula) {
   EXPECT_NEAR(found, expected + 1.0 / 2000, 1e-14);
 }
 
-// However little work there is; from some on, they are near.
+// The bounds must hold for any work, and be close to each other for much work.
 TEST(StarDiscrepancy, BoundsHoldForAnyWork) {
   for (const std::uint32_t dim : {2u, 3u, 5u}) {
     const std::vector<double> x = test::points_of(mc::Sobol(2), 200, dim);
@@ -76,7 +76,7 @@ TEST(StarDiscrepancy, BoundsHoldForAnyWork) {
   }
 }
 
-// The estimate is of the right size: a few times as much suffices, a fifth does not where hardly a part is left out.
+// Four times the estimate suffices. A fifth of it does not for a set where few parts can be discarded.
 TEST(StarDiscrepancy, StepsAreAsEstimated) {
   for (const auto& [n, dim] : {std::pair{2048u, 2u}, {512u, 3u}, {256u, 4u}, {100u, 5u}, {64u, 8u}}) {
     const std::vector<double> x = test::points_of(mc::Sobol(1), n, dim);
@@ -87,7 +87,7 @@ TEST(StarDiscrepancy, StepsAreAsEstimated) {
   EXPECT_FALSE(mc::star_discrepancy({x, 4}, static_cast<std::uint64_t>(0.2 * mc::exact_star_steps(512, 4))).exact());
 }
 
-// Lower and upper bound of a set that is too large for its work: in eight dimensions.
+// A set in eight dimensions that is too large for its work gives a lower and an upper bound.
 TEST(StarDiscrepancy, ManyDimensions_ReturnsBounds) {
   const std::vector<double> x = test::points_of(mc::Sobol(3), 256, 8);
   const mc::StarDiscrepancy found = mc::star_discrepancy({x, 8}, 30'000'000);
@@ -97,7 +97,7 @@ TEST(StarDiscrepancy, ManyDimensions_ReturnsBounds) {
   EXPECT_LT(found.upper, 0.5);
 }
 
-// Sets of which branch and bound over all boxes, an independent algorithm, found the same.
+// Reference values by an independent branch and bound over all boxes.
 TEST(StarDiscrepancy, ThousandsOfPointsAreExact) {
   const std::vector<double> plane = test::points_of(mc::Sobol(1), 4096, 2),
                             space = test::points_of(mc::Sobol(1), 512, 3), four = test::points_of(mc::Sobol(1), 256, 4);

@@ -18,7 +18,7 @@ TEST(StarGrid, StoresRanksOfPoints) {
   EXPECT_EQ(grid.order(1)[0], 0u);
 }
 
-// No box is worse than the worst; of small sets many starts find it nearly always.
+// The ascent never exceeds the true value. For small sets, many starts nearly always find it.
 TEST(StarAscent, IsALowerBoundAndOftenExact) {
   int found = 0;
   constexpr std::uint64_t sets = 60;

@@ -9,7 +9,7 @@
 namespace {
 
 TEST(Hash, IsSplitmix64) {
-  // First outputs of splitmix64 from state 0, by its reference code.
+  // First outputs of the reference code of splitmix64 from state 0.
   EXPECT_EQ(mc::hash(0), 0xe220a8397b1dcdafULL);
   EXPECT_EQ(mc::hash(0x9e3779b97f4a7c15ULL), 0x6e789e6aa1b965f4ULL);
 }
@@ -26,8 +26,8 @@ TEST(Hash, NoCollisionsOnAGrid) {
   EXPECT_EQ(seen.size(), 65536u); // 2^31 pairs in 2^64 values: a collision by chance has probability 1e-10
 }
 
-// Each output bit flips with probability 1/2 when an input bit does. 128 x 64 proportions of 4096 trials, sd 2^-7: the
-// largest deviation exceeds 6 sd with probability 2e-5.
+// Checks that each output bit flips with probability 1/2 if an input bit flips. There are 128 x 64 proportions of 4096
+// trials with sd 2^-7. The largest deviation exceeds 6 sd with probability 2e-5.
 TEST(Hash, Avalanche) {
   constexpr int trials = 4096;
   double worst = 0;

@@ -7,7 +7,7 @@
 namespace {
 
 TEST(Pcg, EngineMatchesItsReferenceOutput) {
-  // pcg32-demo of pcg-cpp: seed 42, stream 54.
+  // Output of pcg32-demo of pcg-cpp for seed 42 and stream 54.
   pcg32 engine(42u, 54u);
   for (const std::uint32_t expected : {0xa15c02b7u, 0x7b47f409u, 0xba1d3330u, 0x83d2f293u, 0xbfa4784bu, 0xcbed606eu})
     EXPECT_EQ(engine(), expected);
@@ -27,7 +27,7 @@ TEST(Pcg, SameSeedSameBits) {
 }
 
 TEST(Pcg, StreamsThatDifferInUpperBitsAloneAreIndependent) {
-  // Increments 2^62 apart would give the same number every other time.
+  // Increments 2^62 apart would give equal numbers in every other draw.
   for (const int bit : {32, 40, 48, 56, 62, 63}) {
     mc::Pcg a(1, 5), b(1, 5 + (std::uint64_t{1} << bit));
     constexpr int n = 1 << 16;
@@ -51,7 +51,7 @@ TEST(Pcg, AdvanceIsRepeatedDrawing) {
 }
 
 TEST(Pcg, UniformMoments) {
-  // Mean and second moment of 1e6 numbers within 5 standard deviations: alpha 1e-6 each.
+  // Mean and second moment of 1e6 numbers within 5 sd: alpha is 1e-6 for each.
   mc::Pcg r(1);
   double sum = 0, squares = 0;
   constexpr int n = 1'000'000;

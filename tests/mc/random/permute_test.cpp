@@ -40,8 +40,8 @@ TEST(Permute, RoundsReproduceThePermutation) {
     }
 }
 
-// Where the first two of n land, over seeds, against the uniform law on ordered pairs: chi-square below its mean plus 5
-// standard deviations, alpha about 1e-6.
+// Tests the images of the first two elements over seeds against the uniform law of ordered pairs. The bound of
+// chi-square is its mean plus 5 sd, alpha about 1e-6.
 TEST(Permute, PairsAreUniform) {
   for (const std::uint32_t n : {3u, 4u, 7u, 16u, 23u}) {
     constexpr int seeds = 200'000;

@@ -44,7 +44,7 @@ TEST(Halton, DimensionsBeyondTheLastDoNotWrap) {
   for (std::uint32_t i = 0; i < 16; ++i) EXPECT_NE(s.bits(i, 1024), s.bits(i, 0));
 }
 
-// What halton.h says of indices that 32 bits cannot count.
+// Checks the documented behaviour of indices from 2^32 on.
 TEST(Halton, IndicesFrom2To32On) {
   constexpr std::uint64_t beyond = std::uint64_t{1} << 32;
   const mc::Halton digits(5, mc::HaltonScramble::digits), nested(5);
@@ -57,7 +57,8 @@ TEST(Halton, IndicesFrom2To32On) {
     }
 }
 
-// A smooth integrand: the error of 7776 points is well below 1/6 of that of 216, where independent points reach 1/6.
+// For a smooth integrand, 36 times the points must reduce the error by far more than the factor 6 of independent
+// points.
 TEST(Halton, ConvergesFasterThanIndependent) {
   const auto f = [](double x, double y) { return std::exp(x) * std::exp(y); };
   const double exact = mc::sqr(std::exp(1.0) - 1);

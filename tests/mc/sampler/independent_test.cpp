@@ -9,7 +9,7 @@ namespace {
 TEST(Independent, UniformOverSeedsAndIndices) {
   EXPECT_LE(test::seed_moments([](std::uint64_t s) { return mc::Independent{s}; }, 0xffffffff, 12), 5);
   const auto f = [](double x, double y) { return x * y; };
-  // sd of x y is sqrt(7/144); the RMS of 200 errors is within 20 % of it at 4 sd.
+  // The sd of x y is sqrt(7/144). The RMS of 200 errors lies within 20 % of it, at 4 sd.
   const double rms = test::rms_error([](std::uint64_t s) { return mc::Independent{s}; }, 1024, 200, 0, 0.25, f);
   EXPECT_NEAR(rms * std::sqrt(1024.0) / std::sqrt(7.0 / 144), 1, 0.2);
 }

@@ -13,7 +13,7 @@ TEST(LatinHypercube, OnePointPerIntervalOfEveryDimension) {
         EXPECT_EQ(test::occupancy(mc::LatinHypercube(n, 3), set * n, n, dim, n), (test::Range{1, 1}));
 }
 
-// A sum of functions of one variable each: the error is that of 1-D stratification, N^-3/2.
+// For an additive integrand, the error has the rate N^-3/2 of one-dimensional stratification.
 TEST(LatinHypercube, AdditiveIntegrandsConvergeFast) {
   const auto make = [](std::uint32_t n) { return [n](std::uint64_t seed) { return mc::LatinHypercube(n, seed); }; };
   const auto f = [](double x, double y) { return x * x + y; };

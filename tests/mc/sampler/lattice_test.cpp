@@ -6,8 +6,8 @@
 
 namespace {
 
-// Differences of points, in which the shift cancels, make a lattice: with point 0 taken off, 2^k points are multiples
-// of 2^-k.
+// Differences of points cancel the shift and form a lattice. After subtraction of point 0, the first 2^k points are
+// multiples of 2^-k.
 TEST(Lattice, LeadingPointsAreAShiftedGridInEveryDimension) {
   const mc::Lattice s(3);
   for (std::uint32_t d = 0; d < mc::Lattice::dimensions; ++d) {
@@ -28,8 +28,9 @@ TEST(Lattice, NoTwoDimensionsCoincide) {
   for (const std::uint32_t x : z) EXPECT_EQ(x % 2, 1u);
 }
 
-// Mean of the products of B2 kernels over pairs of dimensions: 0 for a perfect rule. Random vectors average near the
-// error of independent points, 1 / sqrt(N); ours is held to a tenth of it for the worst pair of the first eight.
+// Mean of products of B2 kernels over pairs of dimensions, 0 for a perfect rule. For random generating vectors, the
+// error is near the error of independent points. The bound is a tenth of that, for the worst pair of the first eight
+// dimensions.
 TEST(Lattice, PairsOfDimensionsAreEven) {
   const auto f = [](double x, double y) { return (x * x - x + 1.0 / 6) * (y * y - y + 1.0 / 6); };
   const auto make = [](std::uint64_t seed) { return mc::Lattice(seed); };

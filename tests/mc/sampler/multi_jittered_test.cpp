@@ -31,7 +31,7 @@ TEST(MultiJittered, AnyCount) {
 }
 
 TEST(MultiJittered, UniformOverSeeds) {
-  for (const std::uint32_t n : {1u, 16u, 1u << 31}) // full grids only: see the class for what other counts guarantee
+  for (const std::uint32_t n : {1u, 16u, 1u << 31}) // full grids only: other counts guarantee less
     for (const std::uint64_t i : {0ull, 1ull, 0x7fffffffull})
       EXPECT_LE(test::seed_moments([n](std::uint64_t s) { return mc::MultiJittered(n, s); }, i, 2, 10000), 5)
           << n << " " << i;

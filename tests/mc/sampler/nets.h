@@ -1,5 +1,5 @@
 #pragma once
-/// Counting points in intervals, for the tests of samplers.
+/// Counts of points in intervals, for the tests of samplers.
 
 #include <mc/sampler/concept.h>
 
@@ -9,7 +9,7 @@
 
 namespace test {
 
-/// Fewest and most points of indices [first, first + count) among n equal intervals of dimension dim.
+/// Smallest and largest number of points of indices [first, first + count) in n equal intervals of dimension dim.
 struct Range {
   int least, most;
 };
@@ -27,7 +27,7 @@ Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint3
   return {*std::min_element(hits.begin(), hits.end()), *std::max_element(hits.begin(), hits.end())};
 }
 
-/// The same on an nx x ny grid of dimensions (dx, dy).
+/// Same on an nx x ny grid of dimensions (dx, dy).
 template <mc::Sampler T>
 Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint32_t dx, std::uint64_t nx,
                 std::uint32_t dy, std::uint64_t ny) {
@@ -37,7 +37,7 @@ Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint3
   return {*std::min_element(hits.begin(), hits.end()), *std::max_element(hits.begin(), hits.end())};
 }
 
-/// RMS error of the mean of f(u0, u1) over `seeds` samplers made by make(seed).
+/// RMS error of the mean of f(u_dim, u_dim+1) over `seeds` samplers made by make(seed).
 template <class Make, class F>
 double rms_error(const Make& make, std::uint32_t count, int seeds, std::uint32_t dim, double exact, const F& f) {
   double squares = 0;
@@ -51,7 +51,7 @@ double rms_error(const Make& make, std::uint32_t count, int seeds, std::uint32_t
   return std::sqrt(squares / seeds);
 }
 
-/// Largest |mean - 1/2|, |E u^2 - 1/3| and |E (u_d - 1/2)(u_{d+1} - 1/2)| of one point over seeds, in standard
+/// Largest deviation of the moments mean, E u^2 and E (u_d - 1/2)(u_{d+1} - 1/2) of one point over seeds, in standard
 /// deviations.
 template <class Make> double seed_moments(const Make& make, std::uint64_t index, std::uint32_t dim, int seeds = 20000) {
   double first = 0, second = 0, cross = 0;

@@ -20,7 +20,7 @@ TEST(ReverseBits, IsItsOwnInverse) {
   }
 }
 
-// Two numbers that share exactly their first k bits still do.
+// Two numbers that agree in exactly their first k bits must do so after scrambling.
 TEST(OwenScramble, PreservesElementaryIntervals) {
   for (std::uint32_t t = 0; t < 1000; ++t) {
     const auto x = static_cast<std::uint32_t>(mc::hash(1, t)), seed = static_cast<std::uint32_t>(mc::hash(2, t));
@@ -33,7 +33,8 @@ TEST(OwenScramble, PreservesElementaryIntervals) {
   }
 }
 
-// Each output bit is 1 for half of the seeds, whatever the input: 4 x 32 proportions of 2^16, 5.5 sd, alpha 5e-6.
+// Each output bit must be 1 for half of the seeds, for any input. There are 4 x 32 proportions of 2^16 trials; 5.5 sd
+// give alpha 5e-6.
 TEST(OwenScramble, EveryBitIsFair) {
   for (const std::uint32_t x : {0u, 1u, 0x80000000u, 0xffffffffu}) {
     int ones[32] = {};

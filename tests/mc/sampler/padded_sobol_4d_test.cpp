@@ -12,7 +12,7 @@ namespace {
 using test::occupancy;
 using test::Range;
 
-// A (3,m,4)-net: of 2^8 points every elementary box of volume 2^-5, of any shape, has exactly 2^3.
+// (3,m,4)-net: of 2^8 points, every elementary box of volume 2^-5 contains exactly 2^3, for any shape of the box.
 TEST(PaddedSobol4D, EveryGroupIsANet) {
   for (const std::uint32_t group : {0u, 1u, 1000u})
     for (const std::uint64_t first : {0ull, 0xffffff00ull}) {
@@ -40,7 +40,7 @@ TEST(PaddedSobol4D, FirstPairOfAGroupIsAZeroNet) {
     EXPECT_EQ(occupancy(mc::PaddedSobol4D(7), 256, 256, 8, 1u << m, 9, 1u << (8 - m)), (Range{1, 1}));
 }
 
-// With 256 points on 16 x 16 cells an aligned net over two groups would have one point in each cell.
+// An aligned net over two groups would have one of the 256 points in each of the 16 x 16 cells.
 TEST(PaddedSobol4D, GroupsAreShuffledAgainstEachOther) {
   EXPECT_GE(occupancy(mc::PaddedSobol4D(7), 0, 256, 0, 16, 4, 16).most, 2);
   EXPECT_GE(occupancy(mc::PaddedSobol4D(7), 0, 256, 1, 16, 5, 16).most, 2);
@@ -53,9 +53,8 @@ TEST(PaddedSobol4D, PointsDoNotRepeat) {
       EXPECT_TRUE(seen.insert(mc::PaddedSobol4D(1).bits(i, d)).second) << i << ' ' << d;
 }
 
-// A product of four: slope -3/2 as for two, so 16 times the points give 1/64 of the error; a factor 2 of leeway.
-//                    Independent pairs
-// leave what all four have in common to chance.
+// A product over four variables converges with slope -3/2, so 16 times the points give 1/64 of the error. The bound
+// allows a factor 2. Padded pairs would not stratify the interaction of all four variables.
 TEST(PaddedSobol4D, FourVariablesThatInteractConverge) {
   const double exact = mc::sqr(mc::sqr(std::exp(1.0) - 1));
   const auto rms = [&](std::uint32_t n) {

@@ -17,8 +17,8 @@ TEST(PaddedSobol, EveryPairIsAZeroNet) {
                   (Range{1, 1}));
 }
 
-// The other pairings are shuffled: with 256 points on 16 x 16 cells an aligned net in (0,2) would have one point in
-// each cell.
+// Dimensions of different pairs are shuffled. An aligned net in (0,2) would have one of the 256 points in each of the
+// 16 x 16 cells.
 TEST(PaddedSobol, PairsAreShuffledAgainstEachOther) {
   EXPECT_GE(occupancy(mc::PaddedSobol{7}, 0, 256, 0, 16, 2, 16).most, 2);
   EXPECT_GE(occupancy(mc::PaddedSobol{7}, 0, 256, 1, 16, 3, 16).most, 2);

@@ -34,7 +34,7 @@ TYPED_TEST(PathSampleStreamOf, IsAFunctionOfKeyAndIndex) {
   EXPECT_EQ(firsts.size(), 16u);
 }
 
-// Single numbers between pairs do not disturb the pairs: every one of the first pairs fills the 4 x 4 cells.
+// Single numbers between pairs must not affect the pairs: each of the first pairs fills the 4 x 4 cells.
 template <class Stream> void fills_cells() {
   for (std::uint32_t pair = 0; pair < Stream::pairs; ++pair) {
     std::set<int> cells;
@@ -51,7 +51,7 @@ template <class Stream> void fills_cells() {
     EXPECT_EQ(cells.size(), 16u) << "pair " << pair;
   }
 }
-// The two branches of 8 paths fill the 4 x 4 cells of their first pair, and share no numbers.
+// The two branches of 8 paths must fill the 4 x 4 cells of their first pair and share no numbers.
 template <class Stream> void branches_fill_cells(std::uint32_t count = 8) {
   const typename Stream::Points points(99, count);
   std::set<int> cells;
@@ -72,12 +72,12 @@ template <class Stream> void branches_fill_cells(std::uint32_t count = 8) {
 }
 TEST(PathSampleStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolPathStream<float>>(); }
 TEST(PathSampleStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedPathStream<float>>(); }
-// The first walks of a sequence share one set however long it is said to be.
+// The first walks share one set for any count of the set.
 TEST(PathSampleStreamPairs, BranchesOfLongSobolFillCells) { branches_fill_cells<SobolPathStream<float>>(1u << 31); }
 TEST(PathSampleStreamPairs, SobolFillsCells) { fills_cells<SobolPathStream<float>>(); }
 TEST(PathSampleStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedPathStream<float>>(); }
 
-// Sets that no index can count are left for independent numbers.
+// Branches use independent numbers if the point set would be too large for indices.
 TEST(PathSampleStreamPairs, BranchesBeyondAllCountsAreIndependent) {
   const mc::StratifiedPairs points(1, 70'000);
   const StratifiedPathStream<float> stream(points, 69'999);
@@ -94,7 +94,7 @@ TEST(PathSampleStreamPairs, BranchesBeyondAllCountsAreIndependent) {
   EXPECT_NEAR(sum / 256, 0.5, 5 / std::sqrt(12 * 256.0));
 }
 
-// The last point that an index can count is still one of the sequence's, the next is not.
+// The last valid index is a point of the sequence, the next one is not.
 TEST(PathSampleStreamPairs, SobolBranchesToTheLastIndex) {
   const mc::SobolPairs points(1, 1);
   constexpr std::uint32_t half = 1u << 31;

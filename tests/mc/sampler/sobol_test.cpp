@@ -10,12 +10,12 @@ namespace {
 using test::occupancy;
 using test::Range;
 
-// Boost walks the sequence in Gray code order, which visits the same points.
+// Boost generates the sequence in Gray code order, which contains the same points.
 TEST(Sobol, PointsAreThoseOfBoost) {
   constexpr std::uint32_t dims = 1024;
   boost::random::sobol_engine<std::uint32_t, 32> engine(dims);
   const mc::Sobol sobol;
-  for (std::uint32_t i = 1; i < 300; ++i) // Boost leaves the origin out
+  for (std::uint32_t i = 1; i < 300; ++i) // Boost omits the origin
     for (std::uint32_t d = 0; d < dims; ++d)
       ASSERT_EQ(engine(), sobol.unscrambled(i ^ (i >> 1), d)) << "point " << i << ", dim " << d;
 }
@@ -33,8 +33,8 @@ TEST(Sobol, FirstTwoDimensionsAreAZeroNet) {
           << "2^" << m << " columns";
 }
 
-// What [JoeKuo08] optimise: pairs of dimensions have a small quality parameter t. t = 4 for all pairs of the first
-// eight with 2^10 points.
+// [JoeKuo08] optimise the quality parameter t of pairs of dimensions. t = 4 for all pairs of the first eight with 2^10
+// points.
 TEST(Sobol, PairsOfDimensionsAreNets) {
   for (std::uint32_t a = 0; a < 8; ++a)
     for (std::uint32_t b = 0; b < a; ++b)
@@ -42,7 +42,7 @@ TEST(Sobol, PairsOfDimensionsAreNets) {
         EXPECT_EQ(occupancy(mc::Sobol(1), 0, 1024, a, 1u << m, b, 1u << (6 - m)), (Range{16, 16})) << a << " " << b;
 }
 
-// Each point is uniform over seeds: 15 moments, 5 sd each, alpha below 1e-5.
+// Each point is uniform over seeds: 15 moments at 5 sd each, alpha below 1e-5.
 TEST(Sobol, UniformOverSeeds) {
   const auto make = [](std::uint64_t seed) { return mc::Sobol(seed); };
   for (const std::uint64_t i : {0ull, 1ull, 0xffffffffull})
@@ -56,7 +56,8 @@ TEST(Sobol, DimensionsBeyondTheLastDoNotWrap) {
     for (std::uint32_t i = 0; i < 16; ++i) EXPECT_NE(s.bits(i, d), s.bits(i, d - 1024));
 }
 
-// A smooth integrand: slope -3/2, so 16 times the points give 1/64 of the error; a factor 2 of leeway.
+// Smooth integrands converge with slope -3/2, so 16 times the points give 1/64 of the error. The bound allows a factor
+// 2.
 TEST(Sobol, SmoothIntegrandsConvergeFasterThanOneOverN) {
   const auto make = [](std::uint64_t seed) { return mc::Sobol(seed); };
   const auto f = [](double x, double y) { return std::exp(x) * std::exp(y); };

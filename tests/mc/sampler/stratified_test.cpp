@@ -28,7 +28,7 @@ TEST(Stratified, OneDimensionalGroupsHaveOnePointPerInterval) {
       EXPECT_EQ(occupancy(mc::Stratified(n, 2, 1), 0, n, dim, n), (Range{1, 1}));
 }
 
-// Any count: the slabs hold count / slabs points each up to one, in proportion to their width.
+// For any count, each stratum contains count / slabs points up to one, in proportion to its width.
 TEST(Stratified, AnyCountFillsEveryStratum) {
   for (const std::uint32_t n : {2u, 3u, 5u, 6u, 7u, 12u, 50u, 997u}) {
     const mc::Stratified s(n, 4);
@@ -64,9 +64,8 @@ TEST(Stratified, AWholePointIsThatOfItsCoordinates) {
     }
 }
 
-// The quarter disk: its boundary crosses about n^1/2 of the cells, so the error falls as n^-3/4: 64 times the points,
-//                   1/22.6 of
-// the error. 200 seeds know the ratio of RMS errors within 15 % at 2 sd.
+// The boundary of the quarter disk crosses about n^1/2 of the cells, so the error is O(n^-3/4): 64 times the points
+// give 1/22.6 of it. 200 seeds determine the ratio of RMS errors within 15 % at 2 sd.
 TEST(Stratified, SlopeOnTheDiskIsThreeQuarters) {
   const auto make = [](std::uint32_t n) { return [n](std::uint64_t seed) { return mc::Stratified(n, seed); }; };
   const auto f = [](double x, double y) { return x * x + y * y < 1 ? 1.0 : 0.0; };

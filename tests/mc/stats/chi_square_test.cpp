@@ -33,13 +33,13 @@ TEST(ChiSquare, StatisticByHand) {
 
 TEST(ChiSquare, PoolsWithoutLoss) {
   const auto r = mc::chi_square({1, 1, 2, 50, 1}, {1, 1, 1, 51, 1}, 0.01, 5);
-  EXPECT_EQ(r.dof, 0); // 1 + 1 + 1 + 51 reaches 5 at the fourth, the last joins it
+  EXPECT_EQ(r.dof, 0); // 1 + 1 + 1 + 51 reaches 5 at the fourth cell, and the last cell joins it
   EXPECT_EQ(r.p, 1);
 }
 
 TEST(ChiSquare, ACountWhereNoneIsPossible) { EXPECT_EQ(mc::chi_square({100, 1}, {101, 0}).p, 0); }
 
-// 400 runs at alpha = 5 %: rejections are Binomial(400, 0.05); [8, 34] holds with probability 0.9995.
+// 400 runs at alpha = 5 %: the number of rejections is Binomial(400, 0.05), in [8, 34] with probability 0.9995.
 TEST(ChiSquare, RejectsAtTheRateOfAlpha) {
   mc::Pcg random(4);
   int rejected = 0;

@@ -12,7 +12,7 @@ double identity(double x) { return x; }
 TEST(Ks, LimitingTail) {
   EXPECT_NEAR(mc::kolmogorov_tail(1.3580986393225505), 0.05, 1e-10);
   EXPECT_NEAR(mc::kolmogorov_tail(1.6276236115189503), 0.01, 1e-10);
-  EXPECT_NEAR(mc::kolmogorov_tail(0.9999999), mc::kolmogorov_tail(1.0000001), 1e-6); // the two expansions meet
+  EXPECT_NEAR(mc::kolmogorov_tail(0.9999999), mc::kolmogorov_tail(1.0000001), 1e-6); // both expansions agree
   EXPECT_EQ(mc::kolmogorov_tail(0), 1);
   EXPECT_NEAR(mc::kolmogorov_tail(0.2), 1, 1e-11);
 }
@@ -23,7 +23,7 @@ TEST(Ks, StatisticByHand) {
   EXPECT_EQ(r.location, 0.2);
 }
 
-// 1000 runs of 30 samples at 5 %: Binomial(1000, 0.05); [25, 80] holds with probability 0.9998.
+// 1000 runs of 30 samples at 5 %: Binomial(1000, 0.05) lies in [25, 80] with probability 0.9998.
 TEST(Ks, RejectsAtTheRateOfAlpha) {
   mc::Pcg random(5);
   int rejected = 0;
@@ -36,7 +36,8 @@ TEST(Ks, RejectsAtTheRateOfAlpha) {
   EXPECT_LE(rejected, 80);
 }
 
-// The in-ball Lambertian of the books: cos follows c^4, claimed c^2. 93 samples suffice at p = 0.001.
+// A sampler in the unit ball claimed to be Lambertian: the cosine has the distribution function c^4 instead of c^2. 93
+// samples suffice at p = 0.001.
 TEST(Ks, FindsTheInBallLambertian) {
   mc::Pcg random(6);
   int found = 0;

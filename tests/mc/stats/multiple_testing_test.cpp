@@ -24,7 +24,7 @@ TEST(Holm, StepsDown) {
   EXPECT_NEAR(adjusted[3], 0.02, 1e-15);
   EXPECT_NEAR(adjusted[0], 0.03, 1e-15);
   EXPECT_NEAR(adjusted[2], 0.06, 1e-15);
-  EXPECT_NEAR(adjusted[1], 0.06, 1e-15); // never below that of a smaller p
+  EXPECT_NEAR(adjusted[1], 0.06, 1e-15); // never below the adjusted value of a smaller p
   EXPECT_TRUE(mc::holm({}).empty());
 }
 

@@ -17,7 +17,7 @@ TEST(RmsError, OfKnownEstimates) {
   EXPECT_THROW(mc::rms_error(16, std::vector<double>{1}, 0), mc::Error);
 }
 
-// Squares of these overflow or vanish.
+// Squares of these values would overflow or underflow.
 TEST(RmsError, IsScaleFree) {
   const std::vector<double> estimates = {1, 3, 1, 4};
   const mc::RmsError one = mc::rms_error(16, estimates, 2);
@@ -32,8 +32,8 @@ TEST(RmsError, IsScaleFree) {
   EXPECT_EQ(mc::rms_error(16, std::vector<double>{0, 0}, 0).rms, 0);
 }
 
-// Errors that are 0 but for one in sixteen: of 128 of them 8 +- 2.7 are not, and the interval of normal errors holds
-// the truth only for 7 to 10. At 90 %, fewer than 340 hits of 400 have probability 1e-3.
+// One error in sixteen is not 0. Of 128 errors, 8 +- 2.7 are not 0, and an interval for normal errors would contain the
+// truth only for 7 to 10. At coverage 90 %, fewer than 340 hits of 400 have probability 1e-3.
 TEST(RmsError, IntervalHoldsTheErrorOfALongTail) {
   int hits = 0;
   for (std::uint64_t run = 0; run < 400; ++run) {
@@ -70,7 +70,7 @@ TEST(PowerLaw, FindsAnExactOne) {
   EXPECT_GE(law.hi, -0.75);
 }
 
-// Means of N uniforms: the 95 % interval of the slope holds -1/2. 60 fits; fewer than 50 hits has probability 1e-4.
+// The error of means of N uniforms has slope -1/2. With 60 fits at 95 %, fewer than 50 hits have probability 1e-4.
 TEST(PowerLaw, IntervalHoldsTheSlope) {
   int hits = 0;
   for (std::uint64_t run = 0; run < 60; ++run) {

@@ -26,7 +26,8 @@ TEST(TTest, EqualValues) {
   EXPECT_EQ(mc::t_test(m, 0.6).p, 0);
 }
 
-// 1000 runs at 5 %: [25, 80] holds with probability 0.9998. The detectable difference is then caught in most runs.
+// 1000 runs at 5 %: the number of rejections lies in [25, 80] with probability 0.9998. The test must detect the stated
+// difference in most runs.
 TEST(TTest, RejectsAtTheRateOfAlphaAndCatchesWhatItSays) {
   mc::Pcg random(7);
   int rejected = 0, caught = 0;
@@ -42,8 +43,8 @@ TEST(TTest, RejectsAtTheRateOfAlphaAndCatchesWhatItSays) {
   EXPECT_GE(caught, 970);
 }
 
-// Of normal values, whose variances have chi-square distributions of 1 and 3 degrees of freedom: the mean of 1000 sums
-// of 64 variances each, of which the relative variance is 2 / dof: 2 sum v^2 / d / (sum v)^2.
+// Variances of normal values have chi-square distributions, here of 1 and 3 degrees of freedom, with relative variance
+// 2 / dof. The exact value for a sum is 2 sum v^2 / d / (sum v)^2. Averages over 1000 sums of 64 variances.
 TEST(TTest, DegreesOfFreedomBehindSums) {
   mc::VarianceSum one;
   EXPECT_EQ(one.dof(), mc::infinity<double>);
