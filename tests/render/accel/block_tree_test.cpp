@@ -8,7 +8,7 @@ namespace {
 
 using namespace render;
 
-// A third kind of leaf, as a new shape would add one: planes z = const of a shape that is known by its area.
+// A third block type, as a new shape would add one: planes z = const, defined by the area of a shape.
 class LevelBlock {
  public:
   static constexpr std::uint32_t max_brute_force = 16;
@@ -43,7 +43,7 @@ class LevelBlock {
   Primitive levels_[8] = {};
 };
 
-// With and without a tree the nearest of n levels is found, whose place is the area 4 pi r^2 of a sphere.
+// With and without a tree, the nearest of n levels is found. The height of a level is the area 4 pi r^2 of a sphere.
 TEST(BlockTree, FindsTheNearestOfFewAndMany) {
   for (const int n : {1, 7, 16, 17, 200}) {
     std::vector<Shape> shapes;

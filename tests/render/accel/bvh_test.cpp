@@ -33,7 +33,7 @@ struct Solid {
   std::vector<Triangle> triangles;
 };
 
-/// The octahedron split `levels` times, on the unit sphere, then scaled and moved.
+/// An octahedron, subdivided `levels` times on the unit sphere, then scaled and translated.
 Solid ball(int levels, Float scale, const Vec3& center) {
   Solid s{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
@@ -55,8 +55,8 @@ Solid ball(int levels, Float scale, const Vec3& center) {
   return s;
 }
 
-/// The nearest crossing by a test of every triangle in double; `clear` is false where a crossing is too near an edge,
-/// or the triangle too steep, for float coordinates to decide.
+/// The nearest crossing, by testing every triangle in double. `clear` is false if a crossing is too close to an edge,
+/// or a triangle too steep, for float coordinates to decide.
 struct Answer {
   double t = mc::infinity<double>;
   int prim = -1;
@@ -102,10 +102,10 @@ TEST(Bvh, FindsWhatTestingEveryTriangleFinds) {
       if (!hit) continue;
       ++hits;
       EXPECT_EQ(hit->prim, truth.prim) << n << " triangles, ray " << i;
-      // One rounding to Float, and the roundings of both double evaluations, which a slope of 1e-3 magnifies.
+      // One rounding to Float, plus the rounding of both double evaluations, which a slope of 1e-3 magnifies.
       EXPECT_LE(std::abs(double(hit->t) - truth.t),
                 std::numeric_limits<Float>::epsilon() * truth.t + 0x1p-52 * 1e3 * 16);
-      // t is rounded once; the weights meet the ray up to the rounding of float differences.
+      // t is rounded once. The barycentric point agrees with the ray up to the rounding of float differences.
       const Vec3 p = shape.surface_point(ray, *hit).p;
       EXPECT_LE((p - ray.at(hit->t)).norm(), 1e-5);
     }
@@ -133,7 +133,7 @@ TEST(Bvh, HitsEndBeforeTMax) {
   EXPECT_GE(hits, 200);
 }
 
-// Rays aimed at vertices and at points of edges from inside a closed mesh: none escapes, wherever the mesh is.
+// Rays from inside a closed mesh towards vertices and points of edges: none escapes, at any position of the mesh.
 TEST(Bvh, ClosedMeshesDoNotLeak) {
   int rays = 0, leaks = 0, missed_by_any = 0;
   for (const Float scale : {Float(1e-4), Float(1), Float(1e6)})
@@ -158,7 +158,7 @@ TEST(Bvh, ClosedMeshesDoNotLeak) {
   EXPECT_EQ(missed_by_any, 0) << "of " << rays;
 }
 
-// Axis-parallel rays that run in the planes of boxes: 0 * inf appears in the slab test.
+// Axis-parallel rays in the planes of boxes: the slab test computes 0 * inf.
 TEST(Bvh, AxisParallelRaysThroughVerticesHit) {
   constexpr int n = 24, middle = n / 2;
   for (int axis = 0; axis < 3; ++axis) {
@@ -234,7 +234,7 @@ TEST(Bvh, SpheresAndCapsAgreeWithTheShapesThemselves) {
     EXPECT_EQ(bvh.occluded(ray), hit.has_value()) << i;
     if (!hit) continue;
     ++hits;
-    // t is rounded to Float; the two orders of rounding in double differ by a few ulp of the extent along the normal.
+    // t is rounded to Float. The two orders of evaluation in double differ by a few ulp of the extent along the normal.
     const Shape& shape = shapes[static_cast<std::size_t>(hit->shape)];
     const SurfacePoint point = shape.surface_point(ray, *hit);
     double extent = double(ray.o.norm() + point.p.norm());

@@ -21,7 +21,7 @@ TEST(SphereBlock, CollectsSpheresInBoxesThatHoldThem) {
   }
 }
 
-// Spheres and caps, one in each lane: the block finds the nearest that they find themselves.
+// A block of spheres and caps, one per lane, returns the nearest of the hits of the single shapes.
 TEST(SphereBlock, FindsWhatTheSpheresFind) {
   mc::Pcg random(4);
   std::vector<Sphere> spheres;

@@ -9,8 +9,7 @@ namespace {
 
 using namespace render;
 
-// Whatever instruction set it is compiled for, a ray meets the nearest of the points at which it meets each shape
-// alone, to the bit.
+// For every instruction set, the hit is the nearest of the hits with each single shape, with equal bits.
 TEST(Trees, EveryInstructionSetGivesTheSameBits) {
 #if defined(RENDER_TRACE_CHOSEN)
   std::vector<const Bvh::Trace*> sets = {&trace_baseline};

@@ -43,7 +43,7 @@ TEST(WideTree, LeavesHoldEveryBoxOnceInBlocks) {
 }
 
 TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
-  const auto boxes = random_boxes(20000, Float(0.05)); // enough for several threads to build it
+  const auto boxes = random_boxes(20000, Float(0.05)); // enough boxes for a parallel build
   const WideTree tree = wide_tree(boxes);
   mc::Pcg random(2);
   for (int i = 0; i < 500; ++i) {
@@ -78,7 +78,7 @@ TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
   }
 }
 
-// Boxes that shrink towards a corner make the deepest trees: the stack of a ray suffices for them.
+// Boxes that shrink towards a corner make the deepest trees. The traversal stack is large enough for them.
 TEST(WideTree, DeepTree_IsTraversedCompletely) {
   std::vector<Bounds> boxes;
   for (int i = 0; i < 2000; ++i) {

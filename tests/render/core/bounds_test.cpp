@@ -26,7 +26,7 @@ TEST(Bounds, ExitDistanceBoundsTheBox) {
   EXPECT_EQ(bounds.exit_distance({0.5, 0.5, 0.5}, {0, 2, 0}), 0.75);
   EXPECT_EQ(bounds.exit_distance({0.5, 0.5, 0.5}, {0, -2, 0}), 0.25);
   EXPECT_EQ(bounds.exit_distance({0.5, 0.5, 0.5}, {1, 1, -1}), 0.5);
-  EXPECT_EQ(bounds.exit_distance({0.5, 5, 0.5}, Vec3d::UnitY()), -3); // all of it is behind
+  EXPECT_EQ(bounds.exit_distance({0.5, 5, 0.5}, Vec3d::UnitY()), -3); // the box lies behind p
   EXPECT_EQ(bounds.exit_distance({0.5, -5, 0.5}, Vec3d::UnitY()), 7);
   EXPECT_EQ(bounds.exit_distance({1, 1, 1}, Vec3d::UnitX()), 0);
 }

@@ -11,7 +11,7 @@ struct alignas(64) Line {
   std::uint64_t value;
 };
 
-// Below, at and beyond the size from which pages are asked for, and grown across it.
+// Arrays below, at and above the threshold for huge pages, and arrays that grow across it.
 TEST(HugePageAllocator, ArraysOfAnySizeHoldWhatIsPutIntoThem) {
   constexpr std::size_t page = std::size_t{1} << 21;
   for (const std::size_t bytes : {std::size_t{64}, page, 16 * page - 64, 16 * page, 17 * page + 64}) {

@@ -25,16 +25,16 @@ TEST(Transform, LooksAtItsTarget) {
   const Transform t = Transform::look_at({1, 2, 3}, {1, 2, 7}, {0, 5, 0});
   EXPECT_EQ(t.point({0, 0, 1}), Vec3d(1, 2, 4));
   EXPECT_EQ(t.vector({0, 1, 0}), Vec3d(0, 1, 0));
-  EXPECT_EQ(t.vector({1, 0, 0}), Vec3d(1, 0, 0)); // to the left of one who looks along +z with y up
+  EXPECT_EQ(t.vector({1, 0, 0}), Vec3d(1, 0, 0)); // +x is to the left when looking along +z with y up
   EXPECT_FALSE(t.mirrors());
-  for (const double far : {1e-200, 1e200}) // its square is 0 or infinite
+  for (const double far : {1e-200, 1e200}) // the square underflows or overflows
     EXPECT_TRUE(Transform::look_at({0, 0, far}, {0, 0, 0}, {0, far, 0})
                     .linear.isApprox(Transform::look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0}).linear));
   EXPECT_THROW(Transform::look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0}), mc::Error);
   EXPECT_THROW(Transform::look_at({1, 2, 3}, {1, 4, 3}, {0, 1, 0}), mc::Error);
 }
 
-// A normal stays perpendicular to what it was perpendicular to, and outward under mirroring.
+// A normal stays perpendicular to tangents, and outward under mirroring.
 TEST(Transform, NormalsStayOutward) {
   const Transform t = Transform::columns({2, 0, 1}, {0.5, -3, 0}, {0, 1, 1.5}, {7, 8, 9});
   EXPECT_TRUE(t.mirrors());

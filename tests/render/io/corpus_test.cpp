@@ -1,4 +1,4 @@
-// What fuzzing starts from, and what it has found: each file is read, or refused in one line.
+// The seed corpus of the fuzzers and the inputs that they found: each file is read, or rejected with a one-line error.
 
 #include "fuzz/readers.h"
 
@@ -30,7 +30,7 @@ TEST(Corpus, EveryFileIsReadOrRefusedInOneLine) {
   }
 }
 
-// Every one of them cut anywhere, and with any byte changed; a third of that.
+// Every file of the corpus, truncated or with one byte changed, at a third of all positions.
 struct NearlyCorpus : support::ScratchTest {};
 TEST_F(NearlyCorpus, IsReadOrRefusedInOneLine) {
   mc::Pcg random(5);

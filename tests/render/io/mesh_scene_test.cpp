@@ -13,7 +13,7 @@ using namespace render;
 using testing::HasSubstr;
 
 struct MeshScene : support::ScratchTest {
-  // Triangles between random corners in a box of random sides, of some size, far from the origin for its size or not.
+  // Triangles between random corners in a box with random sides, of given size, near or far from the origin.
   std::string random_obj(mc::Pcg& random, double size, double distance) const {
     const Vec3d sides(random.uniform<double>(), random.uniform<double>(), random.uniform<double>());
     std::string text;
@@ -25,7 +25,7 @@ struct MeshScene : support::ScratchTest {
       text += "\n";
     }
     for (int i = 3; i <= corners; ++i) text += fmt::format("f 1 {} {}\n", i - 1, i);
-    return write("random.obj", text + "v 1e30 1e30 1e30\n"); // no triangle goes there
+    return write("random.obj", text + "v 1e30 1e30 1e30\n"); // no triangle uses this vertex
   }
 };
 
@@ -35,8 +35,8 @@ TEST_F(MeshScene, ExtensionsInLargeLetters) {
   EXPECT_EQ(read_mesh_scene(write("CUBE.OBJ", triangle)).scene.surfaces().size(), 2u);
 }
 
-// In shapes made by machine, of 1e-12 to 1e12 and up to 1000 times their size away: all corners are in the picture
-// whatever its shape, above the ground, and one comes near an edge of a square picture.
+// Random shapes of size 1e-12 to 1e12, up to 1000 times their size from the origin. All corners are in the image at any
+// aspect ratio and above the ground, and one lies close to an edge of a square image.
 TEST_F(MeshScene, TheCameraSeesAllOfIt) {
   mc::Pcg random(7);
   for (int trial = 0; trial < 200; ++trial) {
@@ -73,7 +73,7 @@ TEST_F(MeshScene, IsLitAndOfEveryFormat) {
     options.spp = 16;
     const RenderResult result = render::render(file.scene, options);
     EXPECT_EQ(result.invalid, 0u);
-    // The middle is the mesh, or what is seen through it: no more than six tenths of the sky's light.
+    // The middle shows the mesh, or the scene through it, with at most six tenths of the light of the sky.
     const Spectrum middle = result.image.at(12, 12);
     EXPECT_TRUE((middle > Float(0.05)).all() && (middle < Float(0.62)).all()) << name;
     EXPECT_GT(result.image.at(12, 0)[2], Float(0.62)) << name << ": above it is the sky";

@@ -4,7 +4,8 @@
 
 namespace {
 
-// The constant 1 under the fit: XYZ (0.99769, 1.00025, 0.99520), RGB (1.1993, 0.9508, 0.9037) to four digits.
+// The constant 1 under the fit of the matching functions: XYZ (0.99769, 1.00025, 0.99520), RGB (1.1993, 0.9508, 0.9037)
+// to four digits.
 TEST(Spectrum, ConstantOne) {
   const render::Spectrum rgb = render::spectrum_to_rgb({{400, 1}, {700, 1}});
   EXPECT_NEAR(rgb[0], 1.1993, 5e-5);
@@ -36,13 +37,13 @@ TEST(Spectrum, WhiteIsWhiteInDaylight) {
   using enum render::Illuminant;
   EXPECT_LE((render::spectrum_to_rgb({{400, 1}, {700, 1}}, d65) - 1).abs().maxCoeff(), 1e-6);
   EXPECT_LE((render::spectrum_to_rgb({{500, 0.3}}, d65) - render::Float(0.3)).abs().maxCoeff(), 1e-6);
-  // Daylight has more of the short wavelengths than what is white at equal energy.
+  // Daylight has more short wavelengths than equal-energy light.
   const std::vector<render::SpectralSample> cyan{{400, 1}, {560, 1}, {580, 0}};
   const render::Spectrum in_daylight = render::spectrum_to_rgb(cyan, d65), with_default = render::spectrum_to_rgb(cyan);
   EXPECT_GT(in_daylight[2] / in_daylight[1], 1.02 * with_default[2] / with_default[1]);
 }
 
-// Beyond its samples a spectrum is what it is in the renderer that reads it: sums of three parts are checked.
+// Extrapolation follows the renderer that reads the spectrum. Checks sums of three parts.
 TEST(Spectrum, BeyondItsSamples) {
   using render::Extrapolation, render::Illuminant, render::SpectralSample;
   const std::vector<SpectralSample> part = {{500, 1}, {520, 1}};

@@ -40,7 +40,7 @@ TEST_F(Xml, BrokenXmlNamesTheLine) {
   EXPECT_THAT(support::error_of([&] { render::read_xml(path("none.xml")); }), testing::HasSubstr("no such file"));
 }
 
-// Taken without a word, they would be another scene than the file's author sees.
+// Silently dropped content would change the scene.
 TEST_F(Xml, NothingIsDroppedInSilence) {
   const auto said = [&](const std::string& text) {
     return support::error_of([&] { render::read_xml(write("a.xml", text)); });

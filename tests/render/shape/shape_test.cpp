@@ -23,10 +23,11 @@ TEST(Shape, AnswersAsItsMember) {
   EXPECT_EQ(shape.pdf(ref, a->wi, a->point), a->pdf);
 }
 
-// Lights are chosen by its spread. The projected solid angle towards the shape's middle is estimated by its samples:
-// five standard errors for 400 shapes, and a thousandth, since just inside a sphere all but a few samples say the same.
-// Points of sample_area lie on the shape, a ray finds them there, and parts of equal area get equally many: of 16,000
-// points in 16 parts 1000 each, four deviations of 31 either way, five for the largest of them.
+// Compares areas and solid angles with statistics of samples. Lights are selected by projected_solid_angle_bound, so
+// samples estimate the projected solid angle of 400 shapes. Tolerance: five standard errors plus a thousandth, because
+// just inside a sphere nearly all samples agree. Rays find the points of sample_area on the shape, and parts of equal
+// area get equal counts. With 16,000 points in 16 parts, each part gets 1000 within four standard deviations of 31; five
+// for the largest.
 TEST(Shape, AreaIsSampledAlike) {
   mc::Pcg random(12);
   const auto counted = [&](const Shape& shape, auto&& part) {
@@ -42,7 +43,7 @@ TEST(Shape, AreaIsSampledAlike) {
   const auto expect_alike = [](const std::array<int, 16>& counts) {
     for (const int n : counts) EXPECT_NEAR(n, 1000, 155);
   };
-  // Bands of a sphere of equal height have equal areas, and so have those of a cap.
+  // Bands of equal height have equal areas on a sphere and on a cap.
   expect_alike(counted(Shape(Sphere(Vec3d(1, 2, 3), 2)), [](const SurfacePoint& p) { return (p.p.z() - 1) / 4; }));
   expect_alike(counted(Shape(Sphere::cap(Vec3d::Zero(), 2, Vec3d::UnitZ(), 0.5)),
                        [](const SurfacePoint& p) { return (p.p.z() - Float(1.5)) * 2; }));
@@ -69,7 +70,7 @@ TEST(Shape, SolidAngleStaysBelowBound) {
     mc::Moments filled;
     for (std::uint64_t i = 0; i < 200; ++i) {
       const auto s = shape.sample(ref, {random.uniform<Float>(), random.uniform<Float>()});
-      // A box shows half of its sides, the others lie behind.
+      // Half of the sides of a box are visible; the others lie behind them.
       const double shares = trial % 4 == 3 ? 0.5 : 1;
       const double outside = s ? shape.box().exteriorDistance(s->point.p.cast<double>()) : 0;
       EXPECT_LE(outside, s ? 2 * double(s->point.error) : 0) << trial;

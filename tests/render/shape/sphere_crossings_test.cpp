@@ -8,7 +8,7 @@ namespace {
 
 using namespace render;
 
-// Both crossings lie on the sphere, whatever the length of d; eight at a time find what one finds.
+// Both crossings lie on the sphere for any length of d. Eight spheres at a time give the same results as one.
 TEST(SphereCrossings, LieOnTheSphere) {
   mc::Pcg random(3);
   int crossed = 0;
@@ -29,14 +29,14 @@ TEST(SphereCrossings, LieOnTheSphere) {
     EXPECT_EQ(one.t1, eight.t1[5]);
     EXPECT_LE(one.t0, one.t1);
     EXPECT_EQ(pass.crosses_ahead(), one.t1 > 0);
-    // The root loses digits where the line is all but a tangent.
+    // The root loses digits for lines that are nearly tangent.
     const double tolerance = 1e-14 / std::sqrt(std::max(pass.discriminant, 1e-14));
     for (const double t : {one.t0, one.t1}) EXPECT_NEAR((o + t * line.d).norm(), 1, tolerance) << trial;
   }
   EXPECT_GE(crossed, 400);
 }
 
-// From the surface inward: one crossing is where the line starts. Far away nothing cancels.
+// For a line from the surface inward, one crossing is the start of the line. Far away nothing cancels.
 TEST(SphereCrossings, AtTheEdges) {
   const auto along_x = [](double x, double d, double radius) {
     const Line line({x, 0, 0}, {d, 0, 0});

@@ -13,7 +13,7 @@ namespace {
 
 using namespace render;
 
-/// Mean of 1/pdf over a grid of u: the solid angle that the shape fills, when the pdf is true.
+/// Mean of 1/pdf over a grid of u. If the pdf is correct, it is the solid angle of the shape.
 template <class S> double solid_angle(const S& shape, const Vec3& ref, int n = 512) {
   double sum = 0;
   for (int i = 0; i < n; ++i)
@@ -35,7 +35,8 @@ TEST(Sphere, RejectsBadNumbers) {
     EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d(0, 0, 1), height), mc::Error) << height;
 }
 
-// Angles about the axes, to the rounding of a point; turned and mirrored axes too. The poles have any u.
+// uv are angles about the axes, within the rounding of a point, for rotated and mirrored axes too. u is arbitrary at
+// the poles.
 TEST(Sphere, TextureCoordinatesAreAngles) {
   mc::Pcg random(9);
   for (int trial = 0; trial < 500; ++trial) {
@@ -65,9 +66,8 @@ TEST(Sphere, TextureCoordinatesAreAngles) {
   EXPECT_THROW(Sphere(Vec3d::Zero(), 1).with_uv_axes(2 * Eigen::Matrix3d::Identity()), mc::Error);
 }
 
-// Float rays against spheres of every size, compared with long double. Tangent rays apart, double loses a few roundings
-// of the
-// coordinates: |dt| <= 2^-46 (|o| + radius + |centre|) / cos at the surface.
+// Float rays against spheres of every size, compared with long double. Except for tangent rays, double loses a few
+// roundings of the coordinates: |dt| <= 2^-46 (|o| + radius + |centre|) / cos at the surface.
 TEST(Sphere, CrossingsAreAccurateUpToRadius1e5) {
   using L = long double;
   mc::Pcg random(1);
@@ -102,7 +102,7 @@ TEST(Sphere, SolidAngleOfTheCone) {
   EXPECT_NEAR(solid_angle(Sphere(Vec3d(0, 0, 2), 1), Vec3::Zero()), 0.841787214477, 1e-5);
   EXPECT_NEAR(solid_angle(Sphere(Vec3d(190, 90, 190), 90), Vec3::Zero()), 0.325319809946, 1e-5);
   EXPECT_NEAR(solid_angle(Sphere(Vec3d(190, 90, 190), 90), Vec3(278, 0, Float(279.5))), 1.177008465985, 1e-5);
-  // Far away, where 1 - cos would cancel: pi R^2 / d^2.
+  // Far away, where 1 - cos would cancel, the solid angle is pi R^2 / d^2.
   for (const double d : {1e3, 1e5, 1e7})
     EXPECT_NEAR(solid_angle(Sphere(Vec3d(0, 0, d), 1), Vec3::Zero(), 16) / (mc::pi<double> / (d * d)), 1, 2e-6) << d;
 }
@@ -145,7 +145,7 @@ TEST(Sphere, DirectionPdfSumsTheCrossings) {
   EXPECT_GT(outside.pdf(Vec3::Zero(), Vec3(0, 0, 1)), 0);
 }
 
-// smallpt's light: the visible cap of height .27 of a sphere of radius 600.
+// The light of smallpt: the visible cap of height .27 of a sphere of radius 600.
 TEST(Sphere, CapsHaveTheirOwnAreaAndAreHitOnlyThere) {
   const Sphere cap = Sphere::cap(Vec3d(50, 681.6 - 0.27, 81.6), 600, Vec3d(0, -1, 0), 0.27);
   EXPECT_NEAR(cap.area(), 1017.87601976, 1e-6);
@@ -165,7 +165,8 @@ TEST(Sphere, NormalsPointOutwardOrInward) {
   }
 }
 
-// Points of the sphere round to either side of it; seen from them the far wall must be sampled, not themselves.
+// Points on the sphere round to either side of it. A viewer there must sample the opposite wall, not its own
+// neighbourhood.
 TEST(Sphere, SeenFromItsOwnSurfaceIsSampledByArea) {
   mc::Pcg random(21);
   for (const Vec3d& center : {Vec3d(0, 0, 0), Vec3d(30, -7, 2)}) {
@@ -174,17 +175,17 @@ TEST(Sphere, SeenFromItsOwnSurfaceIsSampledByArea) {
       const Vec3 ref = (center + support::random_direction(random).cast<double>().normalized()).cast<Float>();
       const auto s = sphere.sample(ref, random.point<Float, 2>());
       ASSERT_TRUE(s.has_value()) << i;
-      // Density 1 / (4 pi) of area: distance^2 / cos = 2 distance on a unit sphere, so pdf = distance / (2 pi).
+      // With density 1 / (4 pi) in area and distance^2 / cos = 2 distance on a unit sphere, pdf = distance / (2 pi).
       const double distance = (s->point.p - ref).cast<double>().norm();
       EXPECT_NEAR(s->pdf, distance / (2 * mc::pi<double>), 1e-5 / distance) << i;
     }
   }
 }
 
-// Their cone was refused in the middle of a picture.
+// Tiny distant spheres give a valid sample or none, and never throw.
 TEST(Sphere, TheSmallestFromAfarAreNoError) {
   for (const double radius : {1e-17, 1e-19, 1e-30})
-    for (const double u : {0.1, 0.3, 0.9}) { // points on the far half are none
+    for (const double u : {0.1, 0.3, 0.9}) { // points on the far half give no sample
       const auto s = Sphere(Vec3d::Zero(), radius).sample_direction(Vec3(0, 0, 5), {Float(u), Float(0.6)});
       EXPECT_TRUE(!s || s->pdf >= Float(1e33)) << radius;
       EXPECT_TRUE(!s || std::abs(s->wi.z() + 1) < 1e-6) << radius;

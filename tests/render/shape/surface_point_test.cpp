@@ -12,14 +12,14 @@ namespace {
 
 using namespace render;
 
-/// A turned box of the given half size.
+/// A rotated box of the given half size.
 TriangleMesh turned_box(double half, const Vec3d& center) {
   const Transform turn =
       Transform::columns({0.36, -0.8, 0.48}, {0.48, 0.6, 0.64}, {-0.8, 0, 0.6}, center.cast<double>());
   return TriangleMesh::box(turn * Transform::scale(Vec3d::Constant(half)));
 }
 
-/// Outward directions, every other one grazing: down to a slope of 1e-5, which a float normal still resolves.
+/// Outward directions. Every other one is grazing, with slopes down to 1e-5, which a float normal still resolves.
 Vec3 outward(const SurfacePoint& s, mc::Pcg& random, bool grazing) {
   Vec3 d = support::random_direction(random);
   if (d.dot(s.ng) < 0) d = -d;
@@ -28,13 +28,13 @@ Vec3 outward(const SurfacePoint& s, mc::Pcg& random, bool grazing) {
   return (Vec3(d - d.dot(s.ng) * s.ng).normalized() + slope * s.ng).normalized();
 }
 
-/// Rays that leave a convex shape outward never meet it again.
+/// Outward rays from a convex shape never hit it again.
 void expect_no_self_hits(const Shape& shape, const Vec3d& center, double size, const std::string& what) {
   const Bvh bvh(std::span(&shape, 1));
   mc::Pcg random(3);
   int spawned = 0, self_hits = 0;
   for (int i = 0; i < 4000; ++i) {
-    // From near, from far and from very far: the error of the point does not grow with the ray.
+    // From near, far and very far origins: the error of the point does not grow with the length of the ray.
     const double far = size * (i % 3 == 0 ? 3 : i % 3 == 1 ? 100 : 1e4);
     const Vec3 o = (center + far * support::random_direction(random).cast<double>()).cast<Float>();
     const Vec3 target = (center + 0.5 * size * support::random_direction(random).cast<double>()).cast<Float>();
@@ -67,7 +67,7 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetTheirSphere) {
     }
 }
 
-// The walls of smallpt: points of size 100 on a sphere of radius 1e5.
+// The walls of smallpt: points with coordinates of about 100 on a sphere of radius 1e5.
 TEST(SurfacePoint, SpawnedRaysDoNotMeetAHugeSphereNearby) {
   const Shape shape = Sphere(Vec3d(50, -1e5, 81.6), 1e5);
   const Bvh bvh(std::span(&shape, 1));
@@ -86,8 +86,8 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetAHugeSphereNearby) {
   EXPECT_EQ(self_hits, 0) << "of " << spawned;
 }
 
-// The true surface lies within `error` of p in each coordinate: for a sphere the distance shows it, for a plane the
-// normal.
+// The true surface lies within `error` of p in each coordinate. For a sphere the distance to the centre shows it, for a
+// plane the distance along the normal.
 TEST(SurfacePoint, ErrorBoundsHold) {
   mc::Pcg random(5);
   for (const double scale : {1e-3, 1.0, 1e6})
@@ -122,8 +122,8 @@ TEST(SurfacePoint, OriginsMoveToTheSideOfTheRay) {
   EXPECT_EQ(s.offset_origin(Vec3(0, 0, 1)).x(), 1);
 }
 
-// Rounding moves a sample of a flat shape to either side of another point of it: no direction leads there. Only between
-// its two triangles, whose normals differ by rounding, one may, along which no light to speak of goes.
+// Rounding moves a sample of a flat shape to either side of its plane, yet no direction leads to another point of it.
+// Only between its two triangles, with normals that differ by rounding, may one exist; it carries negligible light.
 TEST(SurfacePoint, PointsOfOnePlaneDoNotSeeEachOther) {
   mc::Pcg random(7);
   for (int i = 0; i < 1000; ++i) {
@@ -139,7 +139,7 @@ TEST(SurfacePoint, PointsOfOnePlaneDoNotSeeEachOther) {
   }
 }
 
-// A shadow ray between two convex shapes that face each other meets neither.
+// A shadow ray between two convex shapes that face each other hits neither.
 TEST(SurfacePoint, ShadowRaysStopBeforeTheirTarget) {
   mc::Pcg random(6);
   for (const double scale : {1e-3, 1.0, 1e6}) {
@@ -152,7 +152,7 @@ TEST(SurfacePoint, ShadowRaysStopBeforeTheirTarget) {
       if (!a) continue;
       const auto b = shapes[1].sample(a->point.p, random.point<Float, 2>());
       if (!b) continue;
-      // Both ends must truly face each other; the last 1e-4 of slope is left to rounding.
+      // Both points must truly face each other; slopes below 1e-4 are left to rounding.
       if (a->point.ng.dot(b->wi) < Float(1e-4) || b->point.ng.dot(b->wi) > Float(-1e-4)) continue;
       ++tried;
       const auto there = a->point.spawn_ray_to(b->point, b->wi), back = b->point.spawn_ray_to(a->point, -b->wi);

@@ -47,9 +47,9 @@ TEST(TriangleMesh, Areas) {
   EXPECT_EQ(TriangleMesh(corners, {{0, 1, 1}}).area(), 0);
 }
 
-// d^2 / (cos A) against the analytic solid angle of the Cornell light: the mean of 1/pdf on a grid of u.
+// Compares the mean of 1/pdf on a grid of u with the analytic solid angle of the Cornell light. pdf = d^2 / (cos A).
 TEST(TriangleMesh, SolidAngleOfTheCornellLight) {
-  // The square in xy, laid into the plane y = 554.
+  // The square in xy, transformed to the plane y = 554.
   const Transform m = Transform::columns({65, 0, 0}, {0, 0, 52.5}, {0, 1, 0}, {278, 554, 279.5});
   const TriangleMesh light = TriangleMesh::rectangle(m);
   const int n = 512;
@@ -64,8 +64,8 @@ TEST(TriangleMesh, SolidAngleOfTheCornellLight) {
   EXPECT_NEAR(sum / (n * n), 0.043975585816, 1e-7);
 }
 
-// A hair below a square light: by area, 1/pdf would be 1e-6 nearly always and 1e6 at times; by solid angle it is a
-// hemisphere shared by two triangles.
+// A point just below a square light. With area sampling, 1/pdf would be 1e-6 for nearly all samples and 1e6 for a few.
+// With solid angle sampling, two triangles share a hemisphere.
 TEST(TriangleMesh, LightThatNearlyTouchesIsSampledBySolidAngle) {
   const TriangleMesh light = TriangleMesh::rectangle(scaled_at({1, 1, 1}, {0, 0, 0}));
   const Vec3 ref(Float(0.3), Float(-0.2), Float(-1e-3));
@@ -78,8 +78,8 @@ TEST(TriangleMesh, LightThatNearlyTouchesIsSampledBySolidAngle) {
     EXPECT_EQ(s->pdf, light.pdf(ref, s->wi, s->point));
     solid_angle.add(1 / double(s->pdf), std::uint64_t(i));
   }
-  // The sum of atan(a b / (h sqrt(a^2 + b^2 + h^2))) over the four rectangles from the foot of the height h; alpha =
-  // 1e-4 for one fixed seed.
+  // The expected value is the sum of atan(a b / (h sqrt(a^2 + b^2 + h^2))) over the four rectangles at the foot of the
+  // height h. alpha = 1e-4 for one fixed seed.
   EXPECT_GE(mc::t_test(solid_angle, 2 * mc::pi<double> - 0.006153914).p, 1e-4);
 }
 
@@ -99,7 +99,7 @@ TEST(TriangleMesh, SampleSaysWhatPdfSaysAndSkipsDegenerateTriangles) {
   EXPECT_EQ(TriangleMesh(corners, {{0, 1, 1}}).sample(Vec3(1, 1, 1), Vec2(0, 0)), std::nullopt);
 }
 
-// A direction through a box meets it twice; each crossing has its own density.
+// A direction through a box crosses it twice; each crossing has its own density.
 TEST(TriangleMesh, DirectionPdfSumsTheCrossings) {
   const TriangleMesh box = TriangleMesh::box(scaled_at({1, 1, 1}, {0, 0, 0}));
   const Vec3 ref(Float(0.1), Float(0.2), 4), wi(0, 0, -1);
@@ -107,7 +107,7 @@ TEST(TriangleMesh, DirectionPdfSumsTheCrossings) {
   EXPECT_EQ(box.pdf(ref, Vec3(0, 0, 1)), 0);
 }
 
-// Each side of a box shows the whole of [0,1]^2 once, not mirrored: u, v and the normal make a right hand.
+// Each side of a box covers [0,1]^2 once and is not mirrored: u, v and the normal are right-handed.
 TEST(TriangleMesh, TextureCoordinatesFillTheSidesOfABox) {
   const TriangleMesh box = TriangleMesh::box(scaled_at({1, 2, 3}, {5, 6, 7}));
   ASSERT_TRUE(box.has_uv());
@@ -137,7 +137,7 @@ TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
   }
 }
 
-// Normals are mapped by the inverse transpose, mirrored or not: z = -1 turns the square over, x = -1 and y = -1 do not.
+// Normals transform by the inverse transpose, also under mirroring: z = -1 flips the square, x = -1 and y = -1 do not.
 TEST(TriangleMesh, NormalOfARectangleIsTheTransformedOne) {
   mc::Pcg random(5);
   int mirrored = 0;

@@ -21,13 +21,14 @@ TEST(BitmapTexture, CentresAreTheTexelsAndTheRestIsBilinear) {
   EXPECT_EQ(b.eval({0.75, 0.75})[0], 5);
   EXPECT_EQ(b.eval({0.5, 0.25})[1], Float(1.5));
   EXPECT_EQ(b.eval({0.5, 0.5})[2], Float(2.75));
-  // It wraps: half way between the last column and the first.
+  // The texture wraps: half way between the last column and the first.
   EXPECT_EQ(b.eval({0, 0.25})[0], Float(1.5));
   EXPECT_EQ(b.eval({1, 0.25})[0], Float(1.5));
   EXPECT_EQ(b.eval({0.25, 0})[0], 2);
 }
 
-// Continuous everywhere, also across the seam, never outside the texels' range, and its mean is theirs.
+// The texture is continuous everywhere, also across the seam. It stays within the range of the texels and has their
+// mean.
 TEST(BitmapTexture, ContinuousBoundedAndOfTheTexelsMean) {
   mc::Pcg random(2);
   for (const auto& [width, height] : {std::pair(1, 1), {1, 3}, {3, 1}, {7, 5}}) {

@@ -13,7 +13,7 @@ TEST(Mask, IsAsOpaqueAsItsTextureIsBright) {
   EXPECT_TRUE(board.varies());
   EXPECT_EQ(board.opacity({0.1, 0.1}), Float(0.5));
   EXPECT_EQ(board.opacity({0.6, 0.1}), 0);
-  // What is all there is wholly there: no chance decides about it.
+  // An opacity of 1 is exact, so no random decision is made.
   EXPECT_EQ(Mask(Texture(render::Checkerboard(Spectrum::Ones(), Spectrum::Ones()))).opacity({0.1, 0.1}), 1);
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 struct Formats : support::ScratchTest {};
 
-// Through image_io.h everything is tested; here only that a big-endian and a grey PFM are understood.
+// The tests of image_io.h cover the formats. This test covers big-endian and grey PFM files.
 TEST_F(Formats, BigEndianGreyPfm) {
   std::string bytes = "Pf\n2 1\n1.0\n";
   bytes += std::string("\x3f\x80\x00\x00\x40\x00\x00\x00", 8); // 1.0f, 2.0f
@@ -16,9 +16,9 @@ TEST_F(Formats, BigEndianGreyPfm) {
   EXPECT_EQ(image.at(1, 0)[2], 2.0f);
 }
 
-// Lines that end in a carriage return too, and lines of comments.
+// Also lines that end in a carriage return, and comment lines.
 TEST_F(Formats, HeadersOfPfm) {
-  const std::string pixels("\x00\x00\x80\x3f\x0a\x00\x80\x3f", 8); // 1.0f and an ulp of 10 above
+  const std::string pixels("\x00\x00\x80\x3f\x0a\x00\x80\x3f", 8); // 1.0f, and 1.0f plus 10 ulp
   for (const char* header : {"Pf\n2 1\n-1.0\n", "Pf\r\n2 1\r\n-1.0\r\n", "Pf 2 1 -1 ", "Pf 2 1 -1\r\n",
                              "Pf\n# by hand\n#\n2 1\n# and\n-1\n", "Pf\r2 1\r-1\r"}) {
     const render::Image image = render::formats::read_pfm(write("a.pfm", header + pixels));
@@ -38,11 +38,11 @@ TEST_F(Formats, HeadersOfPfm) {
   EXPECT_THAT(refusal("Pf # 2 1"), testing::HasSubstr("not a PFM file"));
 }
 
-// Flat pictures under DWA: 1024x256 pixels of 0.5 in 27 channels, in 1813 bytes.
+// Flat images with DWA compression: 1024x256 pixels of 0.5 in 27 channels, in 1813 bytes.
 TEST_F(Formats, FlatExrUnderDwa) {
   const render::Image image = render::formats::read_exr(MC_SOURCE_DIR "/tests/render/io/image/flat-dwab.exr");
   EXPECT_EQ(image.layers.size(), 24u);
-  EXPECT_NEAR(image.at(1023, 255)[1], 0.5, 1e-3); // DWA loses a little
+  EXPECT_NEAR(image.at(1023, 255)[1], 0.5, 1e-3); // DWA is lossy
 }
 
 } // namespace

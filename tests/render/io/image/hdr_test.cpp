@@ -1,4 +1,4 @@
-// Radiance's pictures, written here in every way that the format knows.
+// Radiance HDR images, written here in all encodings of the format.
 
 #include <render/io/image/image_io.h>
 
@@ -16,7 +16,7 @@ using Lines = std::vector<std::vector<Rgbe>>;
 
 const std::string head = "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n\n";
 
-// Long runs and single pixels; no pixel looks like a count.
+// Long runs and single pixels. No pixel equals a run-length code.
 Lines random_lines(mc::Pcg& random, std::size_t lines, std::size_t length) {
   Lines all(lines, std::vector<Rgbe>(length));
   const auto byte = [&](int lo, int hi) {
@@ -120,7 +120,7 @@ TEST_F(Hdr, EveryEncodingAndOrientation) {
     }
 }
 
-// Rows too short or long for counted bytes are plain, whatever they begin with; black has no mantissa.
+// Rows too short or long for encoding by components are plain, whatever bytes they begin with. Black has no mantissa.
 TEST_F(Hdr, ShortRows) {
   const Image image = read("#?RGBE\r\n\r\n-Y 1 +X 2\n" + plain({{2, 2, 0, 130}, {200, 100, 50, 0}}));
   EXPECT_TRUE((image.at(0, 0) == Spectrum(2, 2, 0) * Float(std::ldexp(1.0, -6))).all());
@@ -134,7 +134,8 @@ TEST_F(Hdr, ExposureAndColourCorrectionAreUndone) {
   EXPECT_TRUE((image.at(0, 0) == Spectrum(Float(0.25), Float(0.125), Float(0.5))).all());
 }
 
-// The white of sRGB in XYZ is grey again; red, where a step of x counts most, to half a step of 1/128 times 3.24.
+// The white of sRGB in XYZ becomes grey. The tolerance is for red, where a step of x has the largest effect: half a
+// step of 1/128 times 3.24.
 TEST_F(Hdr, Xyz) {
   const Image image = read("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + plain({{122, 128, 139, 129}}));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(0, 0)[c], 1, 0.0127) << c;
@@ -156,7 +157,7 @@ TEST_F(Hdr, TruncatedAtAnyByte) {
   }
 }
 
-// Any byte may be any other: read, or refused in one line.
+// With any byte changed, the file is read, or rejected with a one-line error.
 TEST_F(Hdr, BrokenAnywhere) {
   mc::Pcg random(3);
   for (const Encode encode : ways) {

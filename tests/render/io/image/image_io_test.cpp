@@ -12,7 +12,7 @@ namespace {
 
 using render::Image;
 
-// The checksum of a PNG's chunk, of its type and data, as it stands in the file.
+// The checksum of a PNG chunk over its type and data, in the byte order of the file.
 std::string png_crc(std::string_view bytes) {
   std::uint32_t crc = 0xffffffff;
   for (const char c : bytes) {
@@ -78,8 +78,8 @@ TEST_F(ImageIo, ExrKeepsLayers) {
 
 std::string number(auto x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); }
 
-// An EXR as other programs write it: 2x1 pixels 0.25 and 3, the same in every channel, perhaps with chromaticities
-// and what it is a map of.
+// An EXR as other programs write it: 2x1 pixels 0.25 and 3, equal in all channels. Optionally with chromaticities and
+// an envmap attribute.
 std::string exr_of(const std::vector<std::string>& channels, const std::vector<float>& chromaticities = {},
                    const std::string& envmap = {}) {
   const auto text = [](const std::string& s) { return s + '\0'; };
@@ -117,7 +117,7 @@ TEST_F(ImageIo, ExrOfLuminanceAloneIsGrey) {
   }
 }
 
-// Read as they are, the numbers would be other colours.
+// Without the check, the values would be read as other colours.
 TEST_F(ImageIo, ExrOfOtherColoursIsRefused) {
   const auto said = [&](const std::string& bytes) {
     return support::error_of([&] { render::read_image(write("a.exr", bytes)); });
@@ -140,7 +140,7 @@ TEST_F(ImageIo, ExrOfOtherColoursIsRefused) {
     }
 }
 
-// Radiance is the values times the size of the scale, whose sign is the order of bytes.
+// Radiance is the value times the size of the scale; the sign of the scale is the byte order.
 TEST_F(ImageIo, PfmHasAScale) {
   const std::string little = number(1.0f) + number(0.5f) + number(3.0f), big(little.rbegin(), little.rend());
   const Image a = render::read_image(write("a.pfm", "PF\n1 1\n-2.5\n" + little)),
@@ -177,7 +177,7 @@ TEST_F(ImageIo, PngIsSrgbWithExposureAndText) {
   EXPECT_TRUE((back.at(1, 0) == 0).all());
 }
 
-// All 256 codes of a grey ramp, there and back.
+// All 256 codes of a grey ramp survive writing and reading.
 TEST_F(ImageIo, PngKeepsEveryCode) {
   Image image(256, 1);
   for (int i = 0; i < 256; ++i) image.at(i, 0).setConstant(render::Float(render::srgb_to_linear(i / 255.0)));
@@ -185,7 +185,7 @@ TEST_F(ImageIo, PngKeepsEveryCode) {
   expect_equal(image, render::read_image(path("ramp.png")));
 }
 
-// The sRGB chunk decides, else gAMA, else it is sRGB.
+// The sRGB chunk has priority over gAMA; sRGB is the default.
 TEST_F(ImageIo, PngHasAGamma) {
   Image image(256, 1);
   for (int i = 0; i < 256; ++i) image.at(i, 0).setConstant(render::Float(render::srgb_to_linear(i / 255.0)));
@@ -200,7 +200,7 @@ TEST_F(ImageIo, PngHasAGamma) {
   for (int i = 0; i < 256; ++i) EXPECT_NEAR(square.at(i, 0)[1], i * i / 65025.0, 1e-6) << i;
 }
 
-// Truncated anywhere, a picture is read whole (what is lacking says nothing about pixels) or refused in one line.
+// A file truncated at any byte is read completely (if no pixels are missing) or rejected with a one-line error.
 TEST_F(ImageIo, TruncatedAtAnyByte) {
   for (const std::string extension : {".exr", ".pfm", ".png"}) {
     const Image image = picture(extension == ".exr");
@@ -225,7 +225,7 @@ TEST_F(ImageIo, SizesThatTheBytesCannotHold) {
   // PFM: a product that overflows 64 bits.
   write("huge.pfm", "PF\n2147483647 2147483647\n-1.0\n12345678");
   EXPECT_THAT(support::error_of([&] { render::read_image(path("huge.pfm")); }), testing::HasSubstr("ends early"));
-  // PNG: the width in the header's bytes 16 to 19, its checksum made right.
+  // PNG: the width is in bytes 16 to 19 of the header; the checksum is corrected.
   render::write_image(path("small.png"), picture(false));
   std::string png = mc::read_file(path("small.png"));
   png.replace(16, 8, std::string("\x00\x0f\x42\x40\x00\x0f\x42\x40", 8));
@@ -233,14 +233,14 @@ TEST_F(ImageIo, SizesThatTheBytesCannotHold) {
   write("huge.png", png);
   EXPECT_THAT(support::error_of([&] { render::read_image(path("huge.png")); }),
               testing::HasSubstr("PNG says 1000000x1000000, which its"));
-  // EXR: the data window's far corner.
+  // EXR: the far corner of the data window.
   render::write_image(path("small.exr"), picture(false));
   std::string exr = mc::read_file(path("small.exr"));
   const std::size_t window = exr.find("dataWindow") + 11 + 6 + 4;
   exr.replace(window + 8, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
   write("huge.exr", exr);
   EXPECT_NE(support::error_of([&] { render::read_image(path("huge.exr")); }), "");
-  // No columns, no rows, neither: the far corner one before the near one, (0, 0).
+  // No columns, no rows, or neither: the far corner lies one before the near corner (0, 0).
   for (const auto& [at, size] : {std::pair<std::size_t, std::size_t>{8, 4}, {12, 4}, {8, 8}}) {
     write("none.exr", mc::read_file(path("small.exr")).replace(window + at, size, std::string(size, '\xff')));
     EXPECT_THAT(support::error_of([&] { render::read_image(path("none.exr")); }),
@@ -274,14 +274,14 @@ TEST_F(ImageIo, RefusesWithOneLine) {
 TEST_F(ImageIo, AFailedWriteLeavesTheOldImage) {
   const Image image = picture(false);
   render::write_image(path("a.pfm"), image);
-  Image wrong; // no pixels: the format cannot hold it
+  Image wrong; // no pixels: the format cannot represent it
   wrong.metadata["type"] = "x";
   EXPECT_NE(support::error_of([&] { render::write_image(path("a.exr"), wrong); }), "");
   EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
   expect_equal(image, render::read_image(path("a.pfm")));
 }
 
-// Red on the left, blue on the right, to within what the compression leaves. No code is off by more than 2.
+// Red on the left, blue on the right, within the loss of the compression: no code is off by more than 2.
 TEST_F(ImageIo, JpegInItsForms) {
   const std::string jpg = MC_SOURCE_DIR "/tests/fuzz/corpus/jpg/";
   for (const char* name : {"rgb.jpg", "progressive.jpg", "trailing.jpg"}) {

@@ -8,7 +8,7 @@ TEST(Srgb, KnownValues) {
   EXPECT_EQ(render::srgb_to_linear(0), 0);
   EXPECT_EQ(render::srgb_to_linear(1), 1);
   EXPECT_NEAR(render::srgb_to_linear(0.5), 0.21404114, 1e-8);
-  // The straight piece at the dark end, where a power of 2.2 is 80 % too low.
+  // The linear segment at the dark end, where a power of 2.2 is far too low.
   EXPECT_NEAR(render::srgb_to_linear(8 / 255.0), 8 / 255.0 / 12.92, 1e-15);
 }
 

@@ -42,14 +42,14 @@ TEST_F(Mesh, ToShapeMovesPointsAndNormals) {
   const Transform mirrored = Transform::translate({0, 0, 5}) * Transform::scale({-2, 1, 1});
   const TriangleMesh mesh = to_shape(file, mirrored);
   EXPECT_DOUBLE_EQ(mesh.area(), 1);
-  const SurfacePoint corner = mesh.point(0, 1, 0); // vertex 1 of the turned triangle: (0, 1, 0)
+  const SurfacePoint corner = mesh.point(0, 1, 0); // vertex 1 of the reoriented triangle: (0, 1, 0)
   EXPECT_EQ(corner.ng, Vec3(0, 0, 1)) << "a mirroring transform keeps the normal on its side";
   EXPECT_LE((corner.ns - Vec3(-0.5, 0, 1).normalized()).norm(), 1e-6);
   EXPECT_EQ(to_shape(file, mirrored, true).point(0, 1, 0).ns, Vec3(0, 0, 1));
 }
 
-// A box of eight shared corners, its sides cut along either diagonal: the normal of every corner leans alike to its
-// three sides, mirrored or not. Where a file has normals, those are taken, and a flat one has none.
+// A box with eight shared corners and randomly chosen diagonals. The normal of every corner has equal angles with its
+// three sides, mirrored or not. Normals of the file take precedence, and a flat mesh has none.
 TEST_F(Mesh, MissingNormalsAreSmooth) {
   mc::Pcg random(4);
   for (int trial = 0; trial < 50; ++trial) {
@@ -100,8 +100,8 @@ std::string pyramid(const PlyCase& c) {
 const PlyCase ply_cases[] = {
     {"ascii", true, false}, {"binary_little_endian", false, false}, {"binary_big_endian", false, true}};
 
-// Two faces that meet at 40 degrees along y, each with corners and normals of its own; stretched along z they meet at
-// another angle.
+// Two faces that meet at 40 degrees along y, each with its own corners and normals. Stretching along z changes the
+// angle.
 TEST_F(Mesh, EdgesAreKeptFromAnAngleOn) {
   const double slope = 40 * mc::pi<double> / 180;
   MeshFile roof;
@@ -141,7 +141,7 @@ TEST_F(Mesh, PlyInEveryFormat) {
   }
 }
 
-// A hollow in the outline, whichever corner is the first; the mark of UTF-8 before it; faces before vertices.
+// A concave outline, starting at any corner. Also a UTF-8 byte order mark, and faces before vertices.
 TEST_F(Mesh, PlyConcavePolygons) {
   const std::vector<std::string> hexagon = {"0 0 0\n", "2 0 0\n", "2 1 0\n", "1 1 0\n", "1 2 0\n", "0 2 0\n"};
   for (std::size_t first = 0; first < hexagon.size(); ++first) {
@@ -198,12 +198,12 @@ TEST_F(Mesh, PlyRefusesWithFileAndPlace) {
   EXPECT_THAT(refusal(text, "face 2", "face 0"), HasSubstr("it has no faces but 4 of 'vertex', and"));
 }
 
-// Mitsuba's serialized format.
+// The serialized format of Mitsuba.
 
-// A stream of zlib with one block that is stored as it is (RFC 1950 and 1951).
+// A zlib stream with one stored block (RFC 1950 and 1951).
 std::string packed(const std::string& bytes) {
   const auto size = static_cast<std::uint16_t>(bytes.size());
-  std::uint32_t a = 1, b = 0; // Adler's checksum
+  std::uint32_t a = 1, b = 0; // Adler-32 checksum
   for (const char c : bytes) {
     a = (a + static_cast<unsigned char>(c)) % 65521;
     b = (b + a) % 65521;
@@ -218,7 +218,7 @@ struct SerializedMesh {
   std::uint64_t vertices = 3, triangles = 1;
   std::vector<std::uint32_t> corners = {0, 1, 2};
   double height = 1;
-  std::uint32_t flag = 0; ///< one more
+  std::uint32_t flag = 0; ///< one additional flag
 
   template <class T> std::string body(std::uint32_t flags) const {
     std::string bytes = raw<std::uint32_t>({flags});
@@ -248,7 +248,7 @@ std::string serialized(const std::vector<SerializedMesh>& meshes) {
   return file + raw<std::uint32_t>({static_cast<std::uint32_t>(meshes.size())});
 }
 
-// Mitsuba does not look at the flag of flat faces where there are normals.
+// Mitsuba ignores the flag of flat faces if there are normals.
 TEST_F(Mesh, SerializedNormalsCountWhateverTheFlagOfFlatFaces) {
   SerializedMesh mesh;
   mesh.flag = 0x10;
@@ -310,7 +310,7 @@ TEST_F(Mesh, SerializedCountsThatItsBytesCannotHold) {
               HasSubstr("says that it holds 4294967295 meshes"));
 }
 
-// Random bytes changed in whole files: read, or refused in one line.
+// Files with random bytes changed are read, or rejected with a one-line error.
 TEST_F(Mesh, SerializedRefusesWhatIsNotSound) {
   SerializedMesh beyond, high;
   beyond.corners = {0, 1, 9};
@@ -345,7 +345,8 @@ TEST_F(Mesh, DamagedAnywhere) {
     }
 }
 
-// Normals that lean by a thousandth bend a mirror by two; those that files have rounded do not.
+// Normals that deviate by a thousandth visibly bend a mirror and are kept. Normals that differ by the rounding of files
+// are not.
 TEST_F(Mesh, SlightlyBentNormalsCount) {
   MeshFile file;
   file.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

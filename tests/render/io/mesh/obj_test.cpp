@@ -1,4 +1,4 @@
-// The reader of Wavefront's format, see mesh.h.
+// The reader of Wavefront OBJ files, see mesh.h.
 
 #include <render/io/mesh/mesh.h>
 
@@ -39,7 +39,7 @@ TEST_F(Obj, TextureCoordinatesGoDown) {
   EXPECT_EQ(file.uvs[0], mc::Vec2<float>(0, 1));
   EXPECT_EQ(file.uvs[2], mc::Vec2<float>(0, 0.25f));
   EXPECT_EQ(file.missing_uv_reason, "");
-  // Where only some corners have them, they do not count.
+  // Texture coordinates of only some corners are ignored.
   const MeshFile some =
       read_obj(write("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3\nf 1 2 3\n"));
   EXPECT_TRUE(some.uvs.empty());
@@ -88,7 +88,7 @@ TEST_F(Obj, RefusesWithFileAndPlace) {
   EXPECT_THAT(refusal("v 0 0 0\n"), HasSubstr("no triangle"));
 }
 
-// Positions are doubles: from here to the transform, nothing is lost of what stands far from the origin.
+// Positions are doubles up to the transform, so positions far from the origin lose no digits.
 TEST_F(Obj, PositionsFarAway) {
   const std::string text = "v 4500000.10 0 0\nv 4500000.90 0 0\nv 4500000.90 0.4 0\nv 4500000.10 0.4 0\nf 1 2 3 4\n";
   const MeshFile file = read_obj(write("far.obj", text));
@@ -96,7 +96,7 @@ TEST_F(Obj, PositionsFarAway) {
   EXPECT_NEAR(to_shape(file, Transform::translate({-4500000.5, 0, 0})).area(), 0.32, 1e-7);
 }
 
-// A dart and an L from every corner on, of any size.
+// A dart and an L, starting at every corner, in several sizes.
 TEST_F(Obj, ConcavePolygons) {
   using Outline = std::vector<std::array<double, 2>>;
   const std::vector<std::pair<Outline, double>> outlines = {{{{0, 0}, {4, 0}, {1, 1}, {0, 4}}, 4},
@@ -113,7 +113,7 @@ TEST_F(Obj, ConcavePolygons) {
       }
 }
 
-// Slashes behind the last number, the mark of UTF-8, lines that end in a carriage return, blanks of all kinds.
+// Trailing slashes, a UTF-8 byte order mark, lines that end in a carriage return, and all kinds of blanks.
 TEST_F(Obj, ManyWaysToWriteATriangle) {
   const std::string corners = "v 0 0 0\nv 2 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
   for (const char* face :
@@ -126,7 +126,7 @@ TEST_F(Obj, ManyWaysToWriteATriangle) {
   EXPECT_EQ(area("f 1 2 3\n" + corners), 1) << "vertices may follow";
 }
 
-// The first triangle has normals that lean, the second has none on one of its corners.
+// The first triangle has tilted normals; the second has no normal at one of its corners.
 TEST_F(Obj, FacesWithoutNormalsAreFlat) {
   const MeshFile file =
       read_obj(write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 1 0 1\nf 1//1 2//1 3//1\nf 2//1 4 3//1\n"));
@@ -136,7 +136,7 @@ TEST_F(Obj, FacesWithoutNormalsAreFlat) {
   EXPECT_EQ(mesh.point(1, 0.3, 0.3).ns, Vec3(0, 0, 1));
 }
 
-// Two squares about an edge, without normals: smooth, unless a group or a material begins between them.
+// Two squares with a common edge and without normals are smooth, unless a group or a material begins between them.
 TEST_F(Obj, GroupsAreNotSmoothedTogether) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n";
   for (const std::string word : {"", "o part\n", "g side\n", "usemtl red\n"}) {

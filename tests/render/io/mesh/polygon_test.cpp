@@ -24,7 +24,7 @@ double shoelace(const Points& p) {
   return sum;
 }
 
-// A plane in space: where a point of it lies.
+// A plane in space; `at` is a point of it.
 struct Plane {
   Vec3d origin = Vec3d::Zero(), x = Vec3d::UnitX(), y = Vec3d::UnitY();
   Vec3d at(const mc::Vec2<double>& p) const { return origin + p.x() * x + p.y() * y; }
@@ -44,7 +44,7 @@ Plane random_plane(mc::Pcg& random, double size, double distance) {
   return plane;
 }
 
-// The triangles have the polygon's corners, n - 2 of them, all wound as it is, and its area.
+// There are n - 2 triangles of polygon corners. They have the winding and the area of the polygon.
 void expect_covers(const Points& polygon, const Plane& plane, double tolerance, const std::string& what) {
   std::vector<Vec3d> corners;
   for (const auto& p : polygon) corners.push_back(plane.at(p));
@@ -69,7 +69,7 @@ void expect_covers(const Points& polygon, const Plane& plane, double tolerance, 
   EXPECT_GE(least, -tolerance * area2) << what << ": one is wound the other way";
 }
 
-// From every corner on, either way round, seen from either side.
+// Tests the polygon starting at every corner, with both windings, from both sides.
 void expect_covers_from_everywhere(Points polygon, const Plane& plane, double tolerance, const std::string& what) {
   for (int turned = 0; turned < 2; ++turned) {
     for (std::size_t first = 0; first < polygon.size(); ++first) {
@@ -80,7 +80,8 @@ void expect_covers_from_everywhere(Points polygon, const Plane& plane, double to
   }
 }
 
-// One corner in every direction from the middle, at random distances: simple, with up to n / 2 dents.
+// One corner in every direction from the centre, at random distances: a simple polygon with up to n / 2 concave
+// corners.
 Points star(mc::Pcg& random, std::size_t n, double roughness) {
   Points p;
   for (std::size_t i = 0; i < n; ++i) {
@@ -91,7 +92,7 @@ Points star(mc::Pcg& random, std::size_t n, double roughness) {
   return p;
 }
 
-// A street of some width that turns as it goes: spirals and zigzags that no corner sees all of.
+// A strip of constant width that turns at random: spirals and zigzags, not entirely visible from any corner.
 Points street(mc::Pcg& random, std::size_t half) {
   Points left, right;
   double x = 0, angle = 0;
@@ -106,7 +107,7 @@ Points street(mc::Pcg& random, std::size_t half) {
   return left;
 }
 
-// Any simple polygon: random points in random order, and while two edges cross, the way between them is turned round.
+// A random simple polygon: random points in random order. While two edges cross, the path between them is reversed.
 Points untangled(mc::Pcg& random, std::size_t n) {
   Points p;
   for (std::size_t i = 0; i < n; ++i) p.emplace_back(random.uniform<double>(), random.uniform<double>());
@@ -187,7 +188,7 @@ TEST(Polygon, RandomShapesOfAllSizes) {
   expect_covers(star(random, 2000, 0.9), random_plane(random, 1, 1), 1e-9, "large star");
 }
 
-// What is convex is cut as a fan, so that quadrilaterals are what readers of PLY have always made of them.
+// Convex polygons become fans, so quadrilaterals are split as PLY readers usually split them.
 TEST(Polygon, ConvexOnesAreFans) {
   mc::Pcg random(3);
   for (std::size_t n = 3; n < 12; ++n) {
@@ -214,8 +215,7 @@ TEST(Polygon, AppendsVertices) {
   }
 }
 
-// Without an area, crossing themselves, beyond what a double holds or not numbers: n - 2 triangles of corners that
-// there are.
+// Polygons without area, self-intersecting, overflowing or not finite still give n - 2 triangles with valid indices.
 TEST(Polygon, WhatIsNoneKeepsItsCount) {
   mc::Pcg random(4);
   for (int trial = 0; trial < 3000; ++trial) {

@@ -14,7 +14,7 @@ struct SceneFileResolver : support::SceneTest {};
 TEST_F(SceneFileResolver, SearchesFoldersLastToFirst) {
   std::filesystem::create_directory(path("a"));
   std::filesystem::create_directory(path("b"));
-  // Triangles as wide as their number.
+  // The width of a triangle is the number of its file.
   const auto write_mesh = [&](const std::string& name, int width) {
     write(name, fmt::format("v 0 0 0\nv {} 0 0\nv 0 1 0\nf 1 2 3\n", width));
   };

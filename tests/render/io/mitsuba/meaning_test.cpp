@@ -1,4 +1,4 @@
-// What scenes mean in Mitsuba where it is not plain: pictures of one pixel with a known radiance.
+// Conventions of Mitsuba that are not obvious, tested with images of one pixel with a known radiance.
 
 #include <render/io/image/image_io.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -12,7 +12,7 @@ namespace {
 using render::Spectrum;
 
 struct Meaning : support::SceneTest {
-  /// What a pixel sees, of a box filter, from `eye` towards `target` with a tiny field of view.
+  /// Radiance of a pixel with a box filter and a tiny field of view, from `eye` towards `target`.
   Spectrum seen(const std::string& eye, const std::string& target, const std::string& body,
                 const std::string& sensor_parameters = "") const {
     const std::string file =
@@ -34,7 +34,7 @@ std::string area(double radiance) {
   return fmt::format("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", radiance);
 }
 
-// Mitsuba gives a lamp without a BSDF a black one, other shapes a diffuse one of 1/2.
+// Mitsuba gives lamps without a BSDF a black one, and other shapes a diffuse one of 1/2.
 TEST_F(Meaning, ALampWithoutABsdfReflectsNothing) {
   for (const std::string shape : {"rectangle", "sphere", "cube"}) {
     EXPECT_EQ(seen("0,0,4", "0,0,0", sky + "<shape type=\"" + shape + "\">" + area(3) + "</shape>")[0], 3) << shape;
@@ -42,7 +42,7 @@ TEST_F(Meaning, ALampWithoutABsdfReflectsNothing) {
   }
 }
 
-// Where the normals of a file oppose the order of the corners, the normals decide which side shines.
+// If the normals of a file oppose the order of the corners, the normals decide which side emits.
 TEST_F(Meaning, AMeshShinesFromTheSideOfItsNormals) {
   for (const int z : {1, -1}) {
     write("square.obj", fmt::format("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 {}\nf 1//1 2//1 3//1 4//1\n", z));
@@ -51,7 +51,7 @@ TEST_F(Meaning, AMeshShinesFromTheSideOfItsNormals) {
                                fmt::format("<transform name=\"toWorld\"><scale x=\"{}\"/></transform></shape>", mirror);
       EXPECT_EQ(seen("0.1,0.2,4", "0.1,0.2,0", body)[0], z > 0 ? 3 : 0) << z << mirror;
       EXPECT_EQ(seen("0.1,0.2,-4", "0.1,0.2,0", body)[0], z > 0 ? 0 : 3) << z << mirror;
-      // A floor on that side is lit, one on the other is not.
+      // A floor on the emitting side is lit, a floor on the other side is not.
       const std::string floor = fmt::format("<shape type=\"rectangle\"><transform name=\"toWorld\"><rotate y=\"1\" "
                                             "angle=\"{}\"/><translate z=\"{}\"/></transform></shape>",
                                             z > 0 ? 180 : 0, 2 * z);
@@ -60,7 +60,7 @@ TEST_F(Meaning, AMeshShinesFromTheSideOfItsNormals) {
   }
 }
 
-// The faces of Mitsuba's cube: u and v at a point of each.
+// The faces of the cube in Mitsuba: u and v at a point of each.
 TEST_F(Meaning, ACubeHasMitsubasTextureCoordinates) {
   render::Image ramp(64, 64);
   for (int y = 0; y < 64; ++y)
@@ -85,8 +85,8 @@ TEST_F(Meaning, ACubeHasMitsubasTextureCoordinates) {
   }
 }
 
-// Where a spectrum ends it is what the renderer and the version of the scene make of it: 450 to 460 nm are blue, but
-// white in lajolla, which holds the ends.
+// The ends of a spectrum depend on the renderer and the version of the scene. 450 to 460 nm are blue, but white in
+// lajolla, which extends the end values.
 TEST_F(Meaning, SpectraEndAsInTheRendererOfTheScene) {
   const std::vector<render::SpectralSample> blue = {{450, 1}, {460, 1}};
   const auto light = [&](const std::string& version, render::Dialect dialect) {
@@ -107,7 +107,7 @@ TEST_F(Meaning, SpectraEndAsInTheRendererOfTheScene) {
   EXPECT_EQ(light("0.6.0", Dialect::mitsuba)[1], 0) << "no green";
 }
 
-// A medium around the camera fills what nearClip cuts away, too.
+// A medium around the camera also fills the region before nearClip.
 TEST_F(Meaning, AMediumBeginsAtTheLens) {
   const std::string box =
       "<shape type=\"cube\"><transform name=\"toWorld\"><scale x=\"3\" y=\"3\" z=\"3\"/></transform>"
@@ -120,13 +120,13 @@ TEST_F(Meaning, AMediumBeginsAtTheLens) {
   }
 }
 
-// Without a word of the focus, a lens is sharp at farClip, 1e4 unless given: an edge far away is sharp.
+// Without a given focus, a lens is focused at farClip, 1e4 by default: a distant edge is sharp.
 TEST_F(Meaning, ALensIsFocusedFarAway) {
   const std::string lens = "<sensor type=\"thinlens\"><float name=\"fov\" value=\"40\"/><float name=\"apertureRadius\" "
                            "value=\"0.1\"/>{}</sensor>";
   const auto distance = [&](const std::string& more) {
     const auto file = render::read_mitsuba(scene(sky + fmt::format(fmt::runtime(lens), more)));
-    // Where rays through two points of the lens cross.
+    // Intersection of rays through two points of the lens.
     const render::ThinLens& camera = file.scene.camera();
     const render::Vec2 middle(0.5f, 0.5f);
     const render::Ray a = camera.ray(middle, camera.tan_half(1), {0.9f, 0.1f}),

@@ -24,7 +24,7 @@ TEST_F(Mitsuba, ReadsTheCornellBoxAsItIs) {
   EXPECT_TRUE(std::holds_alternative<render::GaussianFilter>(scene.filter()));
   EXPECT_NEAR(scene.camera().forward().z(), 1, 1e-6);
   EXPECT_NEAR(scene.camera().right().x(), -1, 1e-6);
-  // The light shines down, inside the room.
+  // The light emits downward, into the room.
   EXPECT_LT(light.sample(render::Vec3(278, 0, 280), render::Vec2(0.3f, 0.6f))->point.ng.y(), -0.99);
 }
 
@@ -132,7 +132,7 @@ TEST_F(Mitsuba, MetalsNameWhatIsWrong) {
   for (const char* facets : {"ggx", "phong"}) {
     const std::string distribution = "<string name=\"distribution\" value=\"" + std::string(facets) + "\"/>";
     EXPECT_EQ(said(distribution), "");
-    for (const char* bad : {"-1", "5e-05", "1.5"}) // phong: an exponent below 0, or none
+    for (const char* bad : {"-1", "5e-05", "1.5"}) // phong: a negative exponent, or none
       EXPECT_THAT(
           said(distribution + "<float name=\"alpha\" value=\"" + bad + "\"/>"),
           testing::HasSubstr("s.xml:3: <bsdf>: facets: alpha " + std::string(bad) + " must lie in [0.0001, 1]"));
@@ -201,7 +201,7 @@ TEST_F(Mitsuba, LightsAndLensesNameWhatIsWrong) {
   EXPECT_EQ(render::read_mitsuba(file).scene.camera().radius(), render::Float(1.0 / 64));
 }
 
-// v is 0 at +z in Mitsuba and at +y in lajolla; u is 0 at +x in both, and turns towards y or z.
+// v is 0 at +z in Mitsuba and at +y in lajolla. u is 0 at +x in both, and increases towards y or z.
 TEST_F(Mitsuba, TheTextureOfASphereIsTheDialects) {
   const std::string file = scene(std::string(sensor) + "<shape type=\"sphere\"/>");
   for (const bool lajolla : {false, true}) {
@@ -260,7 +260,7 @@ TEST_F(Mitsuba, DefaultsAreTheDialects) {
     const std::string text = scene("<sensor type=\"perspective\">" + body + "</sensor><shape type=\"cube\"/>");
     return render::read_mitsuba(text, render::dialect_from(dialect)).scene.camera().tan_half(render::Float(1.5));
   };
-  // 36 mm by 24 mm of film behind 50 mm are .72 by .48 wide, half of that .36 by .24.
+  // Film of 36 mm by 24 mm behind 50 mm is .72 by .48 wide; half of it is .36 by .24.
   EXPECT_LE((tan_half("mitsuba", "") - render::Vec2(0.36, 0.24)).norm(), 1e-6);
   EXPECT_LE((tan_half("mitsuba", "<string name=\"focalLength\" value=\"100mm\"/>") - render::Vec2(0.18, 0.12)).norm(),
             1e-6);
@@ -274,7 +274,7 @@ TEST_F(Mitsuba, DefaultsAreTheDialects) {
               testing::HasSubstr("unknown dialect 'mitsba'; did you mean 'mitsuba'?; use one of mitsuba, lajolla"));
 }
 
-// A reader must not fall over whatever a file's first bytes are: it reads what is whole and says one line of the rest.
+// A truncated scene is read, or rejected with a one-line error.
 TEST_F(Mitsuba, TruncatedAtAnyByte) {
   const std::string whole = R"(<scene version="0.6.0"><default name="r" value="2"/>
     <sensor type="perspective"><float name="fov" value="40"/><film type="hdrfilm"/></sensor>
@@ -308,13 +308,13 @@ TEST_F(Mitsuba, ASceneWithoutLightIsBlackNotAnError) {
   for (const auto& p : render::render(scene, options).image.pixels) EXPECT_TRUE((p == 0).all());
 }
 
-// Every 16x16 block within 4 combined standard errors plus 0.5 % of the reference; 64 samples per pixel of the sizes of
-// the references. Their README states their own noise, the mean of (x - truth)^2 / (truth^2 + .01): at 64 samples it is
-// no longer small against ours, above all where a channel is dark.
-/// A picture that another renderer made of a scene: of the gallery, or as a user has it, in a folder.
+// Every 16x16 block agrees within 4 combined standard errors plus 0.5 % of the reference. Renders 64 samples per pixel
+// at the size of the reference. The README of the references states their noise, the mean of (x - truth)^2 / (truth^2 +
+// .01). It is not negligible at 64 samples, above all in dark channels.
+/// An image of a scene by another renderer. The scene is in the gallery, or in a folder as users have it.
 struct ReferenceImage {
   const char *scene, *file;
-  double noise; ///< variance relative to the square of the radiance
+  double noise; ///< Variance relative to the square of the radiance.
 
   std::string path() const {
     const bool is_users = std::string_view(scene).find('/') != std::string_view::npos;
@@ -368,8 +368,8 @@ INSTANTIATE_TEST_SUITE_P(Mitsuba, Reference,
                                                         3.7e-4},
                                          ReferenceImage{"smallpt.xml", "refs/smallpt_256x192.pfm", 4.4e-4}));
 
-// Scenes that people have from lajolla's repository, as they are; two of those of which there is a picture are above,
-// and cbox is the gallery's.
+// Unmodified scenes from the repository of lajolla. Two scenes with reference images are tested above, and cbox is in
+// the gallery.
 TEST(LajollasScenes, LoadUnchanged) {
   for (const char* name : {"scenes/cbox/cbox.xml", "scenes/veach_mi/mi.xml", "scenes/matpreview/matpreview.xml"}) {
     if (!support::has_shared_file(name)) GTEST_SKIP() << "the scene " << name << " is not here";

@@ -9,7 +9,7 @@ namespace {
 
 using namespace render::mitsuba;
 
-// Where an element of each kind stands in a scene.
+// Scene text around an element of each kind.
 struct Placement {
   std::string before, after;
 };
@@ -28,15 +28,15 @@ const std::map<std::string, Placement> places = {
     {"emitter", {"", ""}},
 };
 
-// The parameter as an element; `value` is an attribute or a child that only reading it notices.
+// The parameter as an element. Only reading it detects that the attribute or child `value` is invalid.
 std::string element_of(const Declaration& d, const std::string& value) {
   if (d.nested()) return "<" + d.tags[0] + " type=\"" + value + "\"/>";
   if (d.type == "transform") return "<transform name=\"" + d.name + "\"><" + value + "/></transform>";
-  if (d.type == "file") return "<string name=\"" + d.name + "\"/>"; // any value is a name: leave it out
+  if (d.type == "file") return "<string name=\"" + d.name + "\"/>"; // any value is a valid name, so it is omitted
   return "<" + d.tags[0] + " name=\"" + d.name + "\" value=\"" + value + "\"/>";
 }
 
-// What must be given besides one parameter, in one line.
+// The required parameters of a row except one, in one line.
 std::string needed_but(const std::string& name, const PluginText& row) {
   std::string text;
   for (const Declaration& d : row.parameters) {
@@ -56,7 +56,7 @@ struct PluginsTest : support::SceneTest {
   }
 };
 
-// A texture needs coordinates: the mesh's file is named, and where they are missing.
+// A texture on a mesh without texture coordinates: the error names the file of the mesh and the place.
 TEST_F(PluginsTest, MeshesWithoutTextureCoordinates) {
   const auto said = [&](const std::string& type, const std::string& file, const std::string& text) {
     write(file, text);
@@ -73,8 +73,8 @@ TEST_F(PluginsTest, MeshesWithoutTextureCoordinates) {
               testing::HasSubstr("a.ply: its vertices have no u and v"));
 }
 
-// The reference and the reading cannot disagree: every parameter that a row declares is read, since what is broken in
-// it is noticed in its line, and nothing that it does not declare is accepted.
+// The reference and the reader agree. Every declared parameter is read, because an invalid value causes an error with
+// its line. Undeclared parameters are rejected.
 TEST_F(PluginsTest, EveryDeclaredParameterIsRead) {
   int parameters = 0;
   for (const Kind& kind : all_plugins())
@@ -132,7 +132,8 @@ TEST_F(PluginsTest, IndicesOfRefractionHaveNames) {
 TEST_F(PluginsTest, TexturesAreMovedByTransformsToo) {
   const auto at = [&](const std::string& parameters, const render::Vec2d& uv) {
     const auto root = render::read_xml(write("t.xml", "<texture type=\"checkerboard\">" + parameters + "</texture>"));
-    Context context(root, render::Dialect::mitsuba, render::Vec3d(5, 6, 7)); // the scene's place is not the texture's
+    // The origin of the scene does not affect the texture.
+    Context context(root, render::Dialect::mitsuba, render::Vec3d(5, 6, 7));
     return read_plugin(texture_plugins(), root, context).eval(uv)[0];
   };
   const std::string moved = R"(<transform name="to_uv"><scale x="2" y="3"/><translate x="0.25" y="0.5"/></transform>)";
@@ -150,7 +151,7 @@ TEST_F(PluginsTest, TexturesAreMovedByTransformsToo) {
               testing::HasSubstr("s.xml:3: <transform>: only what scales and translates u and v is supported"));
 }
 
-// What paints reflects no more than it gets, what shines may give any amount.
+// Reflectances lie in [0, 1]; emission may have any value.
 TEST_F(PluginsTest, PicturesOfPaintLieInZeroToOne) {
   const auto bitmap = [](const std::string& name) {
     return "<texture type=\"bitmap\" name=\"" + name + "\"><string name=\"filename\" value=\"p.pfm\"/></texture>";

@@ -13,7 +13,7 @@ struct SceneTest : ScratchTest {
   std::string scene(const std::string& body) const {
     return write("s.xml", "<scene version=\"0.6.0\">\n" + body + "\n</scene>\n");
   }
-  /// What is said of a scene, which must be one line.
+  /// The error message for a scene, which must be one line.
   std::string refusal(const std::string& body, render::Dialect dialect = render::Dialect::mitsuba) const {
     const std::string file = scene(body);
     const std::string message = error_of([&] { render::read_mitsuba(file, dialect); });

@@ -16,7 +16,7 @@ TEST(Unsupported, GivesTheReason) {
   EXPECT_EQ(why_unsupported("shape", "spot"), "");
 }
 
-// A plugin that librender reads has no reason against it.
+// No supported plugin is listed as unsupported.
 TEST(Unsupported, NamesNoPluginThatIsRead) {
   for (const render::mitsuba::Kind& kind : render::mitsuba::all_plugins())
     for (const render::mitsuba::PluginText& plugin : kind.rows)

@@ -38,7 +38,7 @@ TEST_F(Variables, UnknownOnesAreNamed) {
   EXPECT_THAT(support::error_of([&] { element("<default name=\"spp\" value=\"4\"/>\n<x v=\"$ssp\"/>"); }),
               testing::HasSubstr("v.xml:3: <x>: no <default> above defines $ssp; did you mean 'spp'?, nor is it given "
                                  "(carlo render -D NAME=VALUE)"));
-  // A default counts from where it stands on, so that none can lead back to itself.
+  // A default is valid from its place on, so definitions cannot be circular.
   EXPECT_THAT(
       support::error_of([&] { element("<default name=\"a\" value=\"$b\"/>\n<default name=\"b\" value=\"$a\"/>"); }),
       testing::HasSubstr("v.xml:2: <default>: no <default> above defines $b"));

@@ -1,4 +1,4 @@
-// What lajolla's own loader reads, and Mitsuba's does not.
+// Parameters that the loader of lajolla reads and Mitsuba does not.
 
 #include <render/io/mitsuba/plugins.h>
 
@@ -38,7 +38,7 @@ TEST_F(Lajolla, TheWidthOfAFilterIsTwiceItsRadius) {
   EXPECT_EQ(radius(rfilter_of("tent")), 1);
   EXPECT_THAT(filtered(rfilter_of("tent", "width", "3")).warnings, testing::IsEmpty());
 
-  // lajolla does not look at radius: it counts, and is named.
+  // lajolla ignores radius: it has an effect here, and a warning names it.
   const render::SceneFile by_radius = filtered(rfilter_of("tent", "radius", "2"));
   EXPECT_EQ(by_radius.scene.filter().radius(), 2);
   EXPECT_THAT(by_radius.warnings,
@@ -64,7 +64,7 @@ TEST_F(Lajolla, RoughnessIsTheRootOfAlpha) {
   };
   const float eta = float(1.49 / 1.000277), glass = float(1.5046 / 1.000277);
   for (const double roughness : {1.0, 0.5, 0.1, 0.01, 0.002}) {
-    const auto alpha = render::Float(std::max(roughness * roughness, 1e-4)); // lajolla's least
+    const auto alpha = render::Float(std::max(roughness * roughness, 1e-4)); // the smallest alpha of lajolla
     const std::string given = fmt::format("<float name=\"roughness\" value=\"{}\"/>", roughness);
     EXPECT_TRUE(close(bsdf("roughplastic", given), render::RoughPlastic<render::LajollaBase>(eta, alpha, half, one)))
         << roughness;
@@ -94,7 +94,7 @@ TEST_F(Lajolla, RoughnessAndAlphaExcludeEachOther) {
               HasSubstr("s.xml:3: <float>: 'alpha' is lajolla's; say roughdielectric, or --dialect lajolla"));
 }
 
-// In either dialect: the delta lobe that the rough ones tend to.
+// In both dialects: the delta lobe that is the limit of the rough lobes.
 TEST_F(Lajolla, WithoutRoughnessMaterialsAreSmooth) {
   const std::string alpha = "<float name=\"alpha\" value=\"0\"/>", metal = alpha + "<float name=\"eta\" value=\"0.2\"/>"
                                                                                    "<float name=\"k\" value=\"3\"/>";
@@ -107,7 +107,7 @@ TEST_F(Lajolla, WithoutRoughnessMaterialsAreSmooth) {
   EXPECT_TRUE(std::holds_alternative<render::SmoothConductor>(bsdf("roughconductor", metal + phong)));
 }
 
-// Of a film, which Mitsuba's picture depends on, and lajolla does not look at.
+// Film parameters that change the image of Mitsuba and that lajolla ignores.
 TEST_F(Lajolla, WhatItsFilmLeavesOutIsNamed) {
   const auto film = [](const std::string& parameter) {
     return "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><film type=\"ldrfilm\">\n" + parameter +

@@ -14,7 +14,8 @@ struct ShapePlugins : support::SceneTest {
   }
 };
 
-// Mitsuba 0.6 takes the scale of toWorld for the radius alone, Mitsuba 3 for the centre too; lajolla reads no toWorld.
+// In Mitsuba 0.6 the scale of toWorld applies to the radius only, in Mitsuba 3 also to the centre. lajolla reads no
+// toWorld.
 TEST_F(ShapePlugins, ToWorldScalesTheCentreOfASphereSinceMitsuba2) {
   const std::string parameters = R"(<point name="center" x="1" y="2" z="3"/><float name="radius" value="0.5"/>
     <transform name="toWorld"><scale value="4"/><rotate z="1" angle="90"/><translate x="10"/></transform>)";
@@ -39,7 +40,7 @@ TEST_F(ShapePlugins, ASphereIsNotFlattened) {
                 }),
                 testing::HasSubstr("shape.xml:2: <shape>: toWorld flattens the sphere, or makes a point of it"))
         << scale;
-  // Singular, and no axis 0.
+  // A singular matrix without a zero axis.
   const std::string matrix =
       "<transform name=\"toWorld\"><matrix value=\"1 1 0 0 1 1 0 0 0 0 1 0 0 0 0 1\"/></transform>";
   EXPECT_THAT(support::error_of([&] { shape("sphere", matrix); }),
@@ -58,7 +59,7 @@ TEST_F(ShapePlugins, ARectangleShinesFromTheOtherSideWhenItsNormalIsFlipped) {
     }
 }
 
-// The seam is at +x in Mitsuba and at -x in lajolla, which is seen where a texture repeats no whole number of times.
+// The seam is at +x in Mitsuba and at -x in lajolla. The difference is visible for a fractional number of repetitions.
 TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
   for (const bool is_lajolla : {false, true}) {
     const auto file = shape("sphere", "", "0.6.0", is_lajolla ? Dialect::lajolla : Dialect::mitsuba);
@@ -72,7 +73,7 @@ TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
   }
 }
 
-// In lajolla's dialect it says nothing.
+// Has no effect in the dialect lajolla.
 TEST_F(ShapePlugins, MeshesKeepTheirEdgesFromMaxSmoothAngleOn) {
   const std::string box = "v -1 0 0\nv 0 0 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 2 4 3\n", // two faces at 90 degrees
       name = R"(<string name="filename" value="edge.obj"/>)", angle = R"(<float name="maxSmoothAngle" value="{}"/>)";
