@@ -1,5 +1,5 @@
 #pragma once
-/// The closed sets of BSDFs, and of those that vary over a surface.
+/// The closed sets of BSDFs and of textured BSDFs.
 
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/fuzzy_metal.h>
@@ -15,7 +15,7 @@
 
 namespace render {
 
-/// One of the BSDFs; itself models BsdfLike.
+/// Any of the BSDFs; itself models BsdfLike.
 struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
                            RoughDielectric, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
                            SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor> {
@@ -48,25 +48,27 @@ struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<Layered
   bool transmits() const {
     return dispatch(*this, [](const auto& b) { return b.transmits(); });
   }
-  /// It looks the same from everywhere on one side.
+  /// Whether reflected radiance is the same in all directions of one side.
   bool is_diffuse() const { return std::holds_alternative<Lambert>(*this); }
   bool casts_caustics() const {
     return dispatch(*this, [](const auto& b) { return b.casts_caustics(); });
   }
 };
 
-/// A BSDF for every point of a surface. Each models:
-///   at(uv) : the one of the point
-///   bare() : one of its kind
+/// A BSDF that varies over a surface. Each alternative models:
+///   at(uv)       : the BSDF at the texture coordinates uv.
+///   untextured() : a BSDF of the same kind, for properties that do not depend on textures.
 struct TexturedBsdf
     : std::variant<TexturedLambert, TexturedPlastic<RoughPlastic<LayeredBase>>,
                    TexturedPlastic<RoughPlastic<LajollaBase>>, TexturedPlastic<SmoothPlastic<LayeredBase>>,
                    TexturedPlastic<SmoothPlastic<LajollaBase>>> {
   using variant::variant;
 
+  /// BSDF at the texture coordinates uv.
   Bsdf at(const Vec2d& uv) const {
     return dispatch(*this, [&](const auto& t) { return Bsdf(t.at(uv)); });
   }
+  /// A BSDF of the same kind.
   Bsdf untextured() const {
     return dispatch(*this, [](const auto& t) { return Bsdf(t.untextured()); });
   }

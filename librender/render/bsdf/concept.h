@@ -1,5 +1,5 @@
 #pragma once
-/// The BSDF as a warp: sample, eval and pdf say the same thing.
+/// Concept of a BSDF: sample, eval and pdf describe the same distribution.
 
 #include <render/core/types.h>
 
@@ -7,27 +7,28 @@
 
 namespace render {
 
-/// Directions live in the local frame with the shading normal on +z; wo and wi both leave the surface.
+/// A sampled direction. Directions are in the local frame with the shading normal as +z; wo and wi point away from the
+/// surface.
 struct BsdfSample {
-  Vec3 wi;
-  Spectrum f;    ///< the BSDF without the cosine; for a delta lobe such that f |cos| / pdf is the lobe's weight
-  Float pdf = 0; ///< [1/sr]; for a delta lobe its probability
-  bool delta = false;
-  Float eta = 1; ///< refractive index on the side of wi over that on the side of wo
+  Vec3 wi;            ///< Sampled direction.
+  Spectrum f;         ///< BSDF without the cosine; for a delta lobe f |cos| / pdf is the weight of the lobe.
+  Float pdf = 0;      ///< Density [1/sr]; for a delta lobe its probability.
+  bool delta = false; ///< Whether a delta lobe was sampled.
+  Float eta = 1;      ///< Index of refraction on the side of wi over the index on the side of wo.
 };
 
 /// A BSDF models:
-///   sample(wo, uc, u) : uc chooses a lobe, u in [0,1)^2 a direction in it; nullopt: absorbed
-///   eval(wo, wi)      : f [1/sr], delta lobes excluded
-///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
-///   eta(wo, wi)       : refractive index on the side of wi over that on the side of wo, delta lobes excluded
-///   albedo(wo)        : about the share of light from wo that it sends on, of the colour of which that is most; in
-///                       [0, 1]
-///   is_delta()        : it has delta lobes only
-///   is_narrow()       : its lobes are deltas or narrower than lights: these are sampled only if no ray meets them
-///   has_delta()       : it has a delta lobe, perhaps besides others
-///   transmits()       : light goes through it, in other directions than a delta lobe's
-///   casts_caustics()  : it bundles light so much that paths which start at the lights pay
+///   sample(wo, uc, u)  : samples wi; uc selects a lobe, u in [0,1)^2 a direction of it. nullopt: absorbed.
+///   eval(wo, wi)       : f [1/sr] without the cosine, delta lobes excluded.
+///   pdf(wo, wi)        : density of wi [1/sr], delta lobes excluded.
+///   eta(wo, wi)        : index of refraction on the side of wi over the index on the side of wo, delta lobes excluded.
+///   albedo(wo)         : approximate share of light from wo that is scattered, in [0, 1]; the largest over the
+///                        channels.
+///   is_delta()         : it has delta lobes only.
+///   is_near_specular() : all lobes are delta lobes or narrower than lights. Such lobes connect to delta lights only.
+///   has_delta()        : it has a delta lobe, perhaps among others.
+///   transmits()        : light passes through by a lobe that is not a delta lobe.
+///   casts_caustics()   : it focuses light so strongly that light paths pay.
 template <class T>
 concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.sample(wo, uc, u) } -> std::same_as<std::optional<BsdfSample>>;

@@ -11,13 +11,14 @@
 
 namespace render {
 
-/// Fresnel reflectance of a smooth dielectric for unpolarised light: mean of the squared parallel and perpendicular
-/// amplitudes.
-///   cos_i : cosine of incidence in [0,1];  eta : index of the far side over that of the near side
-///   cos_t : the cosine of refraction; 0 at total internal reflection, where the result is 1
+/// Fresnel reflectance and direction of refraction of a smooth dielectric boundary.
 struct Fresnel {
-  Float reflectance, cos_t;
+  Float reflectance, cos_t; ///< Reflectance; and cosine of refraction, 0 at total internal reflection.
 };
+/// Fresnel equations of a smooth dielectric for unpolarised light: the reflectance is the mean of the squared parallel
+/// and perpendicular amplitudes. At total internal reflection it is 1.
+///   cos_i : cosine of incidence in [0,1].
+///   eta   : index of the far side over the index of the near side.
 inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
   const Float sin2_t = (1 - cos_i) * (1 + cos_i) / (eta * eta);
   if (!(sin2_t < 1)) return {1, 0};
@@ -27,27 +28,28 @@ inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
   return {std::min((parallel * parallel + perpendicular * perpendicular) / 2, Float(1)), cos_t};
 }
 
-/// A relative index of refraction, its squares and quotients far from where floats end.
-///   throws : Error, naming `what`, unless it lies in [0.001, 1000]
+/// Returns the relative index of refraction `eta` if it is in the supported range. Its squares and quotients are then
+/// far from overflow and underflow.
+///   throws : Error, with the name `what`, unless eta lies in [0.001, 1000].
 inline Float checked_ior(std::string_view what, Float eta) {
   mc::require(eta >= Float(1e-3) && eta <= Float(1e3), "{}: relative index {} must lie in [0.001, 1000]", what, eta);
   return eta;
 }
 
-/// Of a boundary to a medium of relative index eta (inside over outside): the index on the side of wi over that on the
-/// side of wo.
+/// Index on the side of wi over the index on the side of wo, at a boundary of relative index eta (inside over outside).
 inline Float transmitted_eta(const Vec3& wo, const Vec3& wi, Float eta) {
   if (wo.z() * wi.z() >= 0) return 1;
   return wo.z() > 0 ? eta : 1 / eta;
 }
 
-/// Smooth boundary to a medium of relative index eta (inside over outside, the normal points outside): two delta lobes,
-/// chosen by the Fresnel reflectance.
-///   f      : radiance is divided by the squared relative index on refraction, so that etendue is conserved
-///   throws : Error unless eta is a checked_index and the colours lie in [0, 1]
-///   Source : Fresnel's equations, [BornWolf99] section 1.5; exact, not Schlick's fit
+/// Smooth boundary to a medium of relative index eta (inside over outside; the normal points outside). It has two delta
+/// lobes, selected by the Fresnel reflectance.
+///   f      : refraction divides radiance by the squared relative index, so that etendue is conserved.
+///   throws : Error unless eta is a checked_ior and the colours lie in [0, 1].
+///   Source : Fresnel's equations, [BornWolf99] section 1.5; exact, not Schlick's approximation.
 class Dielectric {
  public:
+  /// Glass with the relative index eta and tints of reflection and transmission.
   explicit Dielectric(Float eta = Float(1.5), const Spectrum& reflectance = Spectrum::Ones(),
                       const Spectrum& transmittance = Spectrum::Ones())
       : eta_(checked_ior("dielectric", eta)), reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),

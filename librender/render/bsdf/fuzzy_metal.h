@@ -1,5 +1,5 @@
 #pragma once
-/// Mirror and fuzzy metal.
+/// Mirrors and fuzzy metal.
 
 #include <render/bsdf/concept.h>
 
@@ -10,18 +10,20 @@
 
 namespace render {
 
-/// Mirror reflection about +z, on the side of wo.
+/// Mirror direction of wo about +z.
 inline Vec3 reflect(const Vec3& wo) { return {-wo.x(), -wo.y(), wo.z()}; }
 
-/// A mirror (fuzz 0), or the book's fuzzy metal: the mirror direction r plus fuzz times a uniform point of the unit
-/// ball, then normalised; directions below the surface are absorbed.
-///   pdf    : the mass of the ball of radius fuzz about r along the ray t wi, (t2^3 - t1^3) / (4 pi fuzz^3) [1/sr],
-///            where t1 <= t2 are the distances at which the ray enters and leaves it
-///   eval   : albedo pdf / |cos wi|, so that a sample weighs exactly albedo; hence not reciprocal, as in the book
-///   throws : Error unless the albedo and fuzz lie in [0, 1]
-///   Source : the sampling is [Shirley16]'s; the density is derived here and checked by chi-square
+/// A mirror (fuzz 0), or the fuzzy metal of [Shirley16].
+///   sample : the mirror direction r plus fuzz times a uniform point of the unit ball, normalised. Directions below the
+///            surface are absorbed.
+///   pdf    : (t2^3 - t1^3) / (4 pi fuzz^3) [1/sr], where the ray t wi enters the ball of radius fuzz about r at t1 >=
+///            0 and leaves it at t2.
+///   eval   : albedo pdf / |cos wi|, so that each sample has the weight albedo. It is not reciprocal, as in the book.
+///   throws : Error unless albedo and fuzz lie in [0, 1].
+///   Source : sampling from [Shirley16]. The density is derived here.
 class FuzzyMetal {
  public:
+  /// Metal of an albedo and a fuzz.
   explicit FuzzyMetal(const Spectrum& albedo = Spectrum::Constant(Float(0.9)), Float fuzz = 0)
       : albedo_(checked_reflectance("metal: albedo", albedo)), fuzz_(fuzz) {
     mc::require(fuzz >= 0 && fuzz <= 1, "metal: fuzz {} must lie in [0, 1]", fuzz);
@@ -49,14 +51,14 @@ class FuzzyMetal {
     if (is_delta() || !(wo.z() * wi.z() > 0)) return 0;
     const Vec3 r = reflect(wo);
     const Float middle = r.dot(wi);
-    // The chord's half length squared; |r x wi|^2 keeps its precision where wi is close to r.
+    // Squared half length of the chord. |r x wi|^2 is precise for wi close to r.
     const Float chord2 = fuzz_ * fuzz_ - mc::cross<Float>(r, wi).squaredNorm();
     if (!(chord2 > 0)) return 0;
     const Float half = std::sqrt(chord2);
     const Float t2 = middle + half;
     if (!(t2 > 0)) return 0;
     const Float t1 = std::max(middle - half, Float(0));
-    // t2^3 - t1^3 factored: the difference t2 - t1 is known exactly.
+    // t2^3 - t1^3, factored: the difference t2 - t1 is 2 half without cancellation.
     const Float difference = t1 > 0 ? 2 * half : t2;
     return difference * (t2 * t2 + t2 * t1 + t1 * t1) / (4 * mc::pi<Float> * fuzz_ * fuzz_ * fuzz_);
   }
@@ -66,7 +68,7 @@ class FuzzyMetal {
   bool is_near_specular() const { return is_delta(); }
   bool has_delta() const { return is_delta(); }
   bool transmits() const { return false; }
-  bool casts_caustics() const { return fuzz_ <= Float(0.5); } // beyond it costs more than it brings
+  bool casts_caustics() const { return fuzz_ <= Float(0.5); } // for larger fuzz, light paths cost more than they gain
 
  private:
   Spectrum albedo_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Perfectly diffuse reflection.
+/// Diffuse reflection.
 
 #include <render/bsdf/concept.h>
 
@@ -10,11 +10,12 @@
 namespace render {
 
 /// Lambertian reflector, the same on both sides.
-///   eval   : albedo / pi where wo and wi lie on the same side, else 0
-///   sample : cosine hemisphere on the side of wo; pdf |cos wi| / pi [1/sr]
-///   throws : Error unless the albedo lies in [0, 1]
+///   eval   : albedo / pi if wo and wi are on the same side, else 0.
+///   sample : cosine-distributed on the side of wo; pdf |cos wi| / pi [1/sr].
+///   throws : Error unless the albedo lies in [0, 1].
 class Lambert {
  public:
+  /// Reflector of an albedo.
   explicit Lambert(const Spectrum& albedo = Spectrum::Constant(Float(0.5)))
       : albedo_(checked_reflectance("diffuse: reflectance", albedo)) {}
 
@@ -36,6 +37,7 @@ class Lambert {
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
   bool casts_caustics() const { return false; }
+  /// Albedo of each channel.
   const Spectrum& albedo() const { return albedo_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// What rough surfaces share: facets, and how they hide each other.
+/// Microfacet distributions with shadowing and masking.
 
 #include <render/bsdf/dielectric.h>
 
@@ -8,21 +8,22 @@
 
 namespace render {
 
-/// The roughness of facets itself, for their initialisers.
-///   throws : Error unless it lies in [1e-4, 1]
+/// Returns the roughness `alpha` if it is in the supported range.
+///   throws : Error unless alpha lies in [1e-4, 1].
 inline Float checked_alpha(Float alpha) {
   mc::require(alpha >= Float(1e-4) && alpha <= 1, "facets: alpha {} must lie in [0.0001, 1]", alpha);
   return alpha;
 }
 
-/// Lobes of a smaller alpha are narrow: they fill less than about 1e-6 sr, the sun 7e-5 sr.
+/// Lobes of a smaller alpha count as near-specular: they fill less than about 1e-6 sr. For comparison, the sun fills
+/// 7e-5 sr.
 inline constexpr Float near_specular_alpha = Float(2e-4);
 
-/// w as it is seen with wo above the surface, and back.
+/// w in the frame in which wo is above the surface. The map is its own inverse.
 inline Vec3 to_upper_side(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
 
-/// The unit vector nearest to w, whose length is 1 but for rounding: of its height and its part along the surface the
-/// smaller stays and gives the larger.
+/// Normalises, in double, a vector of length 1 up to rounding. The smaller of its height and its tangential length is
+/// kept exactly, and the other follows from it.
 inline Vec3d unit_in_double(const Vec3& w) {
   Vec3d v = w.cast<double>();
   const double height2 = v.z() * v.z(), flat2 = v.x() * v.x() + v.y() * v.y();
@@ -31,8 +32,8 @@ inline Vec3d unit_in_double(const Vec3& w) {
   return v;
 }
 
-/// The normal of the facet that mirrors o to i. What nearly cancels, as at grazing angles, leaves a small difference:
-/// it is taken in double, of lengths that are 1 in double.
+/// Normal of the facet that mirrors o to i: the normalised sum. At grazing angles the sum nearly cancels. It is then
+/// computed in double from vectors of length 1 in double.
 inline Vec3 half_vector(const Vec3& o, const Vec3& i) {
   const Vec3 sum = o + i;
   if (sum.squaredNorm() > Float(0.25)) [[likely]]
@@ -40,76 +41,85 @@ inline Vec3 half_vector(const Vec3& o, const Vec3& i) {
   return (unit_in_double(o) + unit_in_double(i)).normalized().cast<Float>();
 }
 
-/// Directions of one side as they are seen from above it, and the normal that mirrors one to the other.
+/// Two directions above the surface and the half vector m that mirrors one to the other.
 struct Reflection {
-  Vec3 wo, wi, m;
+  Vec3 wo, wi, m; ///< Directions and half vector.
 
-  /// m is of the two directions alone, so that everyone who knows them has the same.
+  /// m depends on both directions alone, so that sample, eval and pdf use the same half vector.
   Reflection(const Vec3& o, const Vec3& i) : wo(o), wi(i), m(half_vector(o, i)) {}
 };
-/// None where wo and wi lie on different sides.
+/// The reflection of wo to wi in the frame in which both are above the surface; none if they are on different sides.
 inline std::optional<Reflection> reflection(const Vec3& wo, const Vec3& wi) {
   if (!(wo.z() * wi.z() > 0)) return {};
   return Reflection(to_upper_side(wo, wo), to_upper_side(wi, wo));
 }
 
-/// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha. Shadowing and masking are separable:
-/// G = G1(wo) G1(wi).
-///   throws : Error unless alpha is a checked_alpha
-///   Source : [WalterEtAl07]
+/// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha, with separable shadowing and masking: G =
+/// G1(wo) G1(wi).
+///   throws : Error unless alpha is a checked_alpha.
+///   Source : [WalterEtAl07].
 class TrowbridgeReitzFacets {
  public:
+  /// Facets of roughness alpha.
   explicit TrowbridgeReitzFacets(Float alpha) : surface_(checked_alpha(alpha), alpha) {}
 
+  /// Roughness.
   Float alpha() const { return surface_.alpha_x; }
+  /// Density of facet area D(m) [1/sr].
   Float d(const Vec3& m) const { return surface_.d(m); }
-  /// G1(w) / |cos w|: finite at the horizon too.
+  /// G1(w) / |cos w|; finite at the horizon, too.
   Float g1_over_cos(const Vec3& w) const { return 2 / (std::abs(w.z()) + surface_.stretch(w).norm()); }
-  /// D G / |cos wo cos wi| of facets with the normal m.
+  /// D G / |cos wo cos wi| for the facet normal m.
   Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
     return d(m) * g1_over_cos(wo) * g1_over_cos(wi);
   }
-  /// Normals seen from wo, which lies above the surface.
+  /// Distribution of the normals visible from wo, which lies above the surface.
   mc::TrowbridgeReitzVisibleNormals<Float> visible_normals(const Vec3& wo) const {
-    return {wo.normalized(), surface_.alpha_x}; // rotations leave lengths a few ulps off, which the warp refuses
+    // rotations change lengths by a few ulps, and the warp requires unit vectors
+    return {wo.normalized(), surface_.alpha_x};
   }
 
  private:
   mc::TrowbridgeReitzSurface<Float> surface_;
 };
 
-/// Facets of Blinn-Phong's distribution D(m) = (n + 2) / (2 pi) cos^n, of which the integral of D cos is 1. They are
-/// the sides of V-shaped grooves: G = min(1, 2 cos m cos wo / wo.m, 2 cos m cos wi / wo.m).
-///   n      : 2 / alpha^2 - 2, so that small slopes are distributed as Beckmann's of roughness alpha [WalterEtAl07]
-///   throws : Error unless alpha is a checked_alpha
-///   Source : [Blinn77]
+/// Facets of the Blinn-Phong distribution D(m) = (n + 2) / (2 pi) cos^n, normalised so that the integral of D cos is 1.
+/// The facets are the sides of V-shaped grooves: G = min(1, 2 cos m cos wo / wo.m, 2 cos m cos wi / wo.m).
+///   n      : 2 / alpha^2 - 2, so that small slopes are distributed as with Beckmann's roughness alpha [WalterEtAl07].
+///   throws : Error unless alpha is a checked_alpha.
+///   Source : [Blinn77].
 class BlinnPhongFacets {
  public:
+  /// Facets of roughness alpha.
   explicit BlinnPhongFacets(Float alpha) : alpha_(checked_alpha(alpha)), normals_(2 / (alpha * alpha) - 1) {}
 
+  /// Roughness.
   Float alpha() const { return alpha_; }
+  /// Density of facet area D(m) [1/sr].
   Float d(const Vec3& m) const { return normals_.pdf(m) / m.z(); }
-  /// D G / |cos wo cos wi| of facets with the normal m, which bisects wo and wi, both above the surface.
+  /// D G / |cos wo cos wi| for the facet normal m, which bisects wo and wi. Both directions lie above the surface.
   Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
     const Float groove = 2 * m.z() / wo.dot(m);
     return d(m) * std::min({1 / (wo.z() * wi.z()), groove / wi.z(), groove / wo.z()});
   }
-  /// All normals, by D cos, of those who are looked at from wo.
+  /// Distribution D cos of all normals, with the density of mirrored directions.
   struct ReflectedNormals {
-    mc::BlinnPhong<Float> normals;
-    Vec3 wo;
+    mc::BlinnPhong<Float> normals; ///< Distribution of the normals.
+    Vec3 wo;                       ///< Direction that is mirrored.
+    /// Samples a normal.
     Vec3 sample(const Vec2& u) const { return normals.sample(u); }
-    /// Density of the direction that wo is mirrored to; 0 for a normal that faces away.
+    /// Density [1/sr] of the direction to which m mirrors wo; 0 if m faces away from wo.
     Float pdf_reflected(const Vec3& m) const {
       const Float cosine = wo.dot(m);
       return cosine > 0 ? normals.pdf(m) / (4 * cosine) : Float(0);
     }
   };
+  /// Distribution of normals for wo.
   ReflectedNormals visible_normals(const Vec3& wo) const { return {normals_, wo}; }
 
  private:
   Float alpha_;
-  mc::BlinnPhong<Float> normals_; ///< of density D cos
+  mc::BlinnPhong<Float> normals_; ///< Density D cos.
 };
 
 } // namespace render

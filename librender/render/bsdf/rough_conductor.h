@@ -1,31 +1,32 @@
 #pragma once
-/// Metal.
+/// Rough metal, and Fresnel reflectance of metals.
 
 #include <render/bsdf/microfacet.h>
 
 namespace render {
 
 /// Fresnel reflectance of a metal for unpolarised light, per channel.
-///   cos_i  : cosine of incidence in [0,1]
-///   eta, k : index of refraction and extinction coefficient of the metal over the index of the outside
-///   error  : 1e-5
-///   Source : [BornWolf99] section 14.2
+///   cos_i  : cosine of incidence in [0,1].
+///   eta, k : index of refraction and extinction coefficient of the metal over the index of the outside.
+///   error  : 1e-5.
+///   Source : [BornWolf99] section 14.2.
 inline Spectrum fresnel_conductor(Float cos_i, const Spectrum& eta, const Spectrum& k) {
   const Float cos2 = cos_i * cos_i, sin2 = 1 - cos2;
-  // (a + ib)^2 = (eta + ik)^2 - sin^2, whose imaginary part is 2 eta k.
+  // (a + ib)^2 = (eta + ik)^2 - sin^2. Its imaginary part is 2 eta k.
   const Spectrum real = eta * eta - k * k - sin2;
   const Spectrum modulus = (real * real + 4 * eta * eta * k * k).sqrt();
-  const Spectrum half = (modulus + real.abs()) / 2; // the larger of a^2 and b^2, the other without a difference
+  // the larger of a^2 and b^2; the other follows from a b = eta k without a difference
+  const Spectrum half = (modulus + real.abs()) / 2;
   const Spectrum twice_a_cos = 2 * cos_i * (real >= 0).select(half, (eta * k).square() / half).sqrt();
   const Spectrum perpendicular = (modulus + cos2 - twice_a_cos) / (modulus + cos2 + twice_a_cos);
   const Spectrum even = cos2 * modulus + sin2 * sin2, odd = twice_a_cos * sin2;
   return (perpendicular * (1 + (even - odd) / (even + odd)) / 2).min(Float(1));
 }
 
-/// The index of refraction of a metal that fresnel_conductor is defined for.
-///   throws : Error, naming `what`, unless eta and k are in [0, 1e6] and never both 0
+/// Returns eta if eta and k are in the domain of fresnel_conductor().
+///   throws : Error, with the name `what`, unless eta and k lie in [0, 1e6] and are never both 0.
 inline const Spectrum& checked_conductor(std::string_view what, const Spectrum& eta, const Spectrum& k) {
-  constexpr Float most = 1e6f; // its fourth power is a float
+  constexpr Float most = 1e6f; // its fourth power is in the range of float
   checked_radiance(fmt::format("{}: eta", what), eta);
   checked_radiance(fmt::format("{}: k", what), k);
   mc::require((eta <= most).all() && (k <= most).all(),
@@ -35,17 +36,18 @@ inline const Spectrum& checked_conductor(std::string_view what, const Spectrum& 
   return eta;
 }
 
-/// Metal with facets of a distribution, the same on both sides.
-///   eta, k : its index of refraction and extinction coefficient over the index of the outside, per channel
-///   eval   : Ks F D G / (4 cos wo cos wi), F that of wo about the half vector; 0 where wo and wi lie on different
-///            sides. Light that would meet a second facet is lost: of F = 1 at a cosine of .9 and alpha .1, .3, .6, 1
-///            GGX's keep .99, .87, .59, .32, Blinn-Phong's 1, .98, .74, .41
-///   sample : mirrored about one of the normals that the distribution draws; nullopt where that ends below the surface.
-///            The pdf is that of the mirrored directions [1/sr]
-///   throws : Error unless eta and k are in [0, 1e6] and never both 0, and the colour lies in [0, 1]
-///   Source : [WalterEtAl07] equation 20
+/// Metal with microfacets, the same on both sides.
+///   eta, k : index of refraction and extinction coefficient over the index of the outside, per channel.
+///   eval   : Ks F D G / (4 cos wo cos wi) with F at the angle between wo and the half vector; 0 if wo and wi are on
+///            different sides. Light that would hit a second facet is lost; notebooks-data/single-scattering/albedo.csv
+///            lists the remaining albedo.
+///   sample : mirrors wo about a sampled normal; nullopt if the result is below the surface. The pdf is the density of
+///            mirrored directions [1/sr].
+///   throws : Error unless eta and k lie in [0, 1e6] and are never both 0, and the colour lies in [0, 1].
+///   Source : [WalterEtAl07] equation 20.
 template <class Facets> class RoughConductor {
  public:
+  /// Metal with the given facets; `reflectance` scales the Fresnel term.
   RoughConductor(const Spectrum& eta, const Spectrum& k, const Facets& facets,
                  const Spectrum& reflectance = Spectrum::Ones())
       : eta_(checked_conductor("rough conductor", eta, k)), k_(k), facets_(facets),
@@ -58,7 +60,7 @@ template <class Facets> class RoughConductor {
     const Vec3 m = normals.sample(u);
     const Vec3 wi = (2 * wo.dot(m) * m - wo).normalized();
     if (!(wi.z() > 0)) return {};
-    const Reflection r(wo, wi); // the rounded wi has a normal of its own
+    const Reflection r(wo, wi); // half vector of the rounded wi, as in eval and pdf
     const Float density = normals.pdf_reflected(r.m);
     if (!(density > 0)) return {};
     return BsdfSample{to_upper_side(wi, unflipped_wo), value(r), density};
@@ -79,7 +81,8 @@ template <class Facets> class RoughConductor {
   bool is_near_specular() const { return facets_.alpha() < near_specular_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
-  bool casts_caustics() const { return facets_.alpha() <= Float(0.2); } // beyond it costs more than it brings
+  // for larger alpha, light paths cost more than they gain
+  bool casts_caustics() const { return facets_.alpha() <= Float(0.2); }
 
  private:
   Spectrum value(const Reflection& r) const {

@@ -1,5 +1,5 @@
 #pragma once
-/// Ground glass.
+/// Rough glass.
 
 #include <render/bsdf/microfacet.h>
 
@@ -7,17 +7,19 @@
 
 namespace render {
 
-/// Rough boundary to a medium of relative index eta (inside over outside, the normal points outside): facets of GGX
-/// that reflect and refract as Dielectric does.
-///   eval   : reflection Ks F D G / (4 |cos wo cos wi|); refraction Kt (1 - F) D G |wo.h wi.h| / (|cos wo cos wi|
-///            (wo.h + e wi.h)^2), e the index on the side of wi over that on the side of wo, radiance being divided
-///            by e^2. 0 where wo or wi sees the back of the facet. Light that would meet a second facet is lost.
-///   sample : a visible normal, reflected about with probability F, else refracted through; nullopt where that ends on
-///            the wrong side
-///   throws : Error unless eta is a checked_index and at least 1e-4 off 1, alpha in [1e-4, 1] and the colours in [0, 1]
-///   Source : [WalterEtAl07] equations 19-21
+/// Rough boundary to a medium of relative index eta (inside over outside; the normal points outside). Facets of the GGX
+/// distribution reflect and refract like Dielectric.
+///   reflection : Ks F D G / (4 |cos wo cos wi|).
+///   refraction : Kt (1 - F) D G |wo.h wi.h| / (|cos wo cos wi| (wo.h + e wi.h)^2). e is the index on the side of wi
+///                over the index on the side of wo. Refraction divides radiance by e^2.
+///   eval   : 0 if wo or wi is behind the facet. Light that would hit a second facet is lost.
+///   sample : a visible normal reflects wo with probability F and refracts it otherwise; nullopt if the result is on
+///            the wrong side.
+///   throws : Error unless eta is a checked_ior, |eta - 1| >= 1e-4, alpha lies in [1e-4, 1] and the colours in [0, 1].
+///   Source : [WalterEtAl07] equations 19-21.
 class RoughDielectric {
  public:
+  /// Glass of a relative index, a roughness, and tints of reflection and transmission.
   RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
                   const Spectrum& transmittance = Spectrum::Ones())
       : eta_(checked_ior("rough dielectric", eta)), facets_(alpha),
@@ -41,7 +43,7 @@ class RoughDielectric {
         reflects ? Vec3(2 * cosine * m - view.wo) : Vec3((cosine / view.ratio - cos_t) * m - view.wo / view.ratio);
     if (!(reflects ? wi.z() > 0 : wi.z() < 0)) return {};
     const Vec3 unflipped_wi = view.flip(wi.normalized());
-    const auto facet = facet_between(wo, unflipped_wi); // the rounded wi has a facet of its own
+    const auto facet = facet_between(wo, unflipped_wi); // the facet of the rounded wi, as in eval and pdf
     if (!facet) return {};
     const Float density = density_of(*facet);
     if (!(density > 0) || !std::isfinite(density)) return {};
@@ -64,7 +66,7 @@ class RoughDielectric {
   bool casts_caustics() const { return true; }
 
  private:
-  /// The surface seen with wo above it, and the index on the far side over that on the side of wo.
+  // Frame in which wo is above the surface, with the index on the far side over the index on the side of wo.
   struct View {
     Vec3 wo;
     Float ratio;
@@ -73,20 +75,20 @@ class RoughDielectric {
     Vec3 flip(const Vec3& w) const { return flipped ? Vec3(w.x(), w.y(), -w.z()) : w; }
   };
 
-  /// The facet that sends light between two directions, and the cosines of both, > 0. Nothing is taken from Snell's
-  /// law, which near the critical angle turns the rounding of one cosine into a large error of the other.
+  // The facet that scatters light between two directions, with both cosines > 0. No value follows from Snell's law:
+  // near the critical angle it amplifies the rounding error of a cosine.
   struct Facet {
     Vec3 wo, wi, m;
     Float cos_o, cos_i, ratio;
     bool reflects;
 
-    /// 1 - F of [BornWolf99] without the difference, the same from both sides.
+    // 1 - F as in [BornWolf99], but without the difference. It is the same from both sides.
     Float transmitted() const {
       const Float c = ratio * cos_i, s = cos_o + c, p = ratio * cos_o + cos_i;
       return 2 * cos_o * c * (1 / mc::sqr(s) + 1 / mc::sqr(p));
     }
-    /// Solid angle of normals over that of refracted directions: e^2 cos_i / (cos_o - e cos_i)^2, where the difference
-    /// is (1 - e^2) / (cos_o + e cos_i).
+    // Solid angle of normals over solid angle of refracted directions: e^2 cos_i / (cos_o - e cos_i)^2. The difference
+    // equals (1 - e^2) / (cos_o + e cos_i).
     Float jacobian() const {
       return mc::sqr(ratio) * cos_i * mc::sqr((cos_o + ratio * cos_i) / ((ratio - 1) * (ratio + 1)));
     }
@@ -97,7 +99,7 @@ class RoughDielectric {
     const Vec3 wi = view.flip(unflipped_wi);
     if (!(view.wo.z() > 0) || wi.z() == 0) return {};
     const bool reflects = wi.z() > 0;
-    // In double: grazing facets have cosines that are small differences, and wo and wi exchanged give the same ones.
+    // In double: at grazing facets the cosines are small differences. Exchanging wo and wi gives the same cosines.
     const double far_index = wo.z() < 0 ? 1 / double(eta_) : double(eta_), ratio = reflects ? 1 : far_index;
     const bool cancel = view.wo.z() + wi.z() < Float(0.5) && reflects; // as in half_vector
     const Vec3d o = cancel ? unit_in_double(view.wo) : Vec3d(view.wo.cast<double>());

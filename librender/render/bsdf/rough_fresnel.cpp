@@ -6,8 +6,8 @@ namespace render {
 
 namespace {
 
-// By the midpoints of the square of visible normals. They are symmetric about the plane of wo, so that half of the
-// turn does; squaring 1 - u evens out the rim, where the facets are seen edge-on.
+// Midpoint rule over the square of visible normals. Normals are symmetric about the plane of wo, so half a turn
+// suffices. The substitution 1 - u = inward^2 places more points at the rim, where facets are nearly edge-on.
 RoughFresnel::Albedos integrate(Float cosine, Float eta, const TrowbridgeReitzFacets& facets) {
   constexpr int turns = 16, rings = 32;
   const Vec3 wo(std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine);

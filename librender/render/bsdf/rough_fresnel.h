@@ -1,5 +1,5 @@
 #pragma once
-/// What a rough coat does with all the light of one direction.
+/// Directional albedo of a rough dielectric coat.
 
 #include <render/core/types.h>
 
@@ -10,23 +10,26 @@
 
 namespace render {
 
-/// The shares of the light from one direction that the facets of GGX, of a boundary to a medium of relative index eta,
-/// reflect and let through. What would meet a second facet is in neither, so that their sum is at most 1.
-///   of     : by a table, linear in the cosine between its nodes. transmitted within .002 for eta in [1.01, 3], and
-///            within .02 below 1, where it starts with a steep slope at the critical angle; reflected, which steers
-///            samples, within .02 and .07
-///   mean_transmitted : what is let through of light that comes from everywhere, 2 int T cos dcos: exactly that of the
-///            table
-///   Source : the facets of [WalterEtAl07], as Mitsuba 0.6 integrates them for its rough plastic
+/// Shares of the light from one direction that a rough dielectric boundary reflects and transmits. The boundary has GGX
+/// facets and the relative index eta. Light that would hit a second facet is lost, so the sum is at most 1.
+///   eval : interpolates a table linearly in the cosine. Error of `transmitted`: .002 for eta in [1.01, 3] and .02 for
+///          eta < 1, where it has a steep slope at the critical angle. Error of `reflected` in these ranges: .02 and
+///          .07. It only controls sampling.
+///   mean_transmitted : transmitted share of uniform light, 2 int T cos dcos; exact for the interpolated table.
+///   Source : facets of [WalterEtAl07], integrated as in Mitsuba 0.6's roughplastic.
 class RoughFresnel {
  public:
+  /// Shares of light.
   struct Albedos {
-    Float reflected, transmitted;
+    Float reflected, transmitted; ///< Reflected and transmitted shares.
   };
 
-  /// alpha 0 for a smooth coat or in [1e-4, 1], eta > 0, both checked by those who have them.
+  /// Builds the table. The caller checks the arguments.
+  ///   eta   : relative index > 0.
+  ///   alpha : roughness in [1e-4, 1]; 0 for a smooth coat.
   RoughFresnel(Float eta, Float alpha);
 
+  /// Shares of light from a direction of this cosine.
   Albedos eval(Float cosine) const {
     const std::vector<Node>& nodes = *nodes_;
     const std::size_t i = cell(cosine);
@@ -34,15 +37,16 @@ class RoughFresnel {
     const Float t = std::clamp((cosine - a.cosine) / (b.cosine - a.cosine), Float(0), Float(1));
     return {a.reflected + t * (b.reflected - a.reflected), a.transmitted + t * (b.transmitted - a.transmitted)};
   }
+  /// Transmitted share of uniform light.
   Float mean_transmitted() const { return mean_transmitted_; }
 
  private:
   struct Node {
     Float cosine, reflected, transmitted;
   };
-  static constexpr std::size_t above = 64, below = 32; ///< cells on the sides of the critical angle
+  static constexpr std::size_t above = 64, below = 32; ///< Numbers of cells above and below the critical angle
 
-  /// Nodes stand the closer the nearer they are to the critical angle, or to the horizon where there is none.
+  // Cell of a cosine. Nodes are dense near the critical angle, or near the horizon if there is no critical angle.
   std::size_t cell(Float cosine) const {
     if (cosine >= critical_) {
       const Float x = std::sqrt((cosine - critical_) / (1 - critical_)) * above;
@@ -53,7 +57,7 @@ class RoughFresnel {
   }
 
   std::shared_ptr<const std::vector<Node>> nodes_;
-  Float critical_;          ///< cosine from which on light is let through by a smooth coat
+  Float critical_;          ///< Cosine of the critical angle: a smooth coat transmits light of larger cosines
   std::size_t cells_below_; ///< 0 or `below`
   Float mean_transmitted_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Glossy paint: a rough dielectric layer over a diffuse base.
+/// Glossy paint: a rough dielectric coat over a diffuse base.
 
 #include <render/bsdf/microfacet.h>
 #include <render/bsdf/rough_fresnel.h>
@@ -11,18 +11,21 @@
 
 namespace render {
 
-/// A white base that is lit through the coat and seen through it, as Mitsuba has it with nonlinear = false.
-///   value  : T(wo) T(wi) / (pi mean T) [1/sr], T what the rough coat lets through. The mean stands for the light that
-///            the coat sends back down as often as it takes: the base gives off T(wo), all that it got. Mitsuba 3 sends
-///            back what a single reflection inside leaves, and its base is the darker the rougher the coat
-///   Source : Mitsuba 0.6, roughplastic
+/// White base under a coat, as in Mitsuba with nonlinear = false.
+///   value  : T(wo) T(wi) / (pi mean T) [1/sr] with the transmittance T of the rough coat. Division by the mean
+///            accounts for light that the coat reflects back to the base, so that the base returns all transmitted
+///            light. Mitsuba 3 accounts for a single internal reflection instead, and its base becomes darker with the
+///            coat's roughness.
+///   Source : Mitsuba 0.6, roughplastic.
 class LayeredBase {
  public:
-  /// alpha : of the coat; 0: it is smooth
+  /// A base under a coat of the relative index eta.
+  ///   alpha : roughness of the coat; 0: smooth.
   LayeredBase(Float eta, Float alpha) : coat_(eta, alpha) {
     if (coat_.mean_transmitted() > 0) scale_ = std::numbers::inv_pi_v<Float> / coat_.mean_transmitted();
   }
 
+  /// BSDF of the white base [1/sr].
   Float value(const Reflection& r, Float) const {
     return scale_ * coat_.eval(r.wo.z()).transmitted * coat_.eval(r.wi.z()).transmitted;
   }
@@ -34,15 +37,18 @@ class LayeredBase {
   Float scale_ = 0;
 };
 
-/// A white base as lajolla has it, without a coat that could keep light away or back.
-///   value  : (1 - F)^2 / pi [1/sr], F that of wo about the half vector. It is no physics: towards the horizon the base
-///            reflects what the coat has reflected already. The albedo of white paint is 1.84 at 89.9 degrees with
-///            eta = 1.49 and alpha = 1e-4, and above 1 from 70 degrees on for alpha up to .1
+/// White base of lajolla's plastic. It ignores the coat's transmittance at wo and wi.
+///   value  : (1 - F)^2 / pi [1/sr] with F at the angle between wo and the half vector.
+/// It is not physical: toward the horizon the base reflects light that the coat has already reflected. The albedo of
+/// white paint exceeds 1 there.
 class LajollaBase {
  public:
+  /// A base under a coat of the relative index eta.
   LajollaBase(Float eta, Float) : eta_(eta) {}
 
+  /// BSDF of the white base [1/sr].
   Float value(const Reflection&, Float f) const { return mc::sqr(1 - f) * std::numbers::inv_pi_v<Float>; }
+  /// Shares of the light from wo that a smooth white coat and a white base reflect.
   RoughFresnel::Albedos directional_albedo(const Vec3& wo) const {
     const Float f = fresnel_dielectric(std::min(wo.z(), Float(1)), eta_).reflectance;
     return {f, 1 - f};
@@ -52,10 +58,12 @@ class LajollaBase {
   Float eta_;
 };
 
-/// What is alike in paint with rough and with smooth coats: an index of refraction, a base and the colours of both.
+/// Common part of RoughPlastic and SmoothPlastic: index of refraction, base, and colours of coat and base.
 template <class Base> class CoatedDiffuse {
  public:
+  /// Colour of the base.
   const Spectrum& diffuse() const { return diffuse_; }
+  /// Colour of the coat.
   const Spectrum& specular() const { return specular_; }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const {
@@ -70,7 +78,7 @@ template <class Base> class CoatedDiffuse {
  protected:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
-  /// name : of the material, for errors
+  /// name : material name for error messages.
   CoatedDiffuse(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
       : eta_(checked_ior(name, eta)), base_(eta, alpha) {
     set_colors(checked_reflectance(name + ": diffuseReflectance", diffuse),
@@ -83,13 +91,13 @@ template <class Base> class CoatedDiffuse {
     diffuse_y_ = luminance(diffuse);
     specular_y_ = luminance(specular);
   }
-  /// How often the coat is sampled: by what coat and base reflect.
+  /// Probability of sampling the coat: its share of the reflected light.
   Float specular_probability(const Vec3& wo) const {
     const auto [reflected, transmitted] = base_.directional_albedo(wo);
     const Float specular = specular_y_ * reflected, diffuse = diffuse_y_ * transmitted;
     return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
   }
-  /// What the coat reflects of light along a direction of this cosine to its normal.
+  /// Fresnel reflectance of the coat at this cosine.
   Float fresnel(Float cosine) const { return fresnel_dielectric(std::min(cosine, Float(1)), eta_).reflectance; }
   Spectrum base_value(const Reflection& r, Float f) const { return diffuse_ * base_.value(r, f); }
 
@@ -100,16 +108,17 @@ template <class Base> class CoatedDiffuse {
   Float diffuse_y_ = 0, specular_y_ = 0;
 };
 
-/// A coat with facets of GGX over a diffuse base, the same on both sides.
-///   eta    : index of refraction of the layer over that of the outside
-///   eval   : Ks F D G / (4 cos wo cos wi) + Kd Base, F that of wo about the half vector; 0 where wo and wi lie on
-///            different sides. Light that would meet a second facet is lost: white paint over LayeredBase has an albedo
-///            of at most 1, notebooks-data/single-scattering says of how much less
-///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each reflects; the pdf is that of the
-///            mixture [1/sr]
-///   throws : Error unless eta is a checked_index, alpha in [1e-4, 1] and the colours in [0, 1]
+/// Coat of GGX facets over a diffuse base, the same on both sides.
+///   eta    : index of refraction of the coat over the index of the outside.
+///   eval   : Ks F D G / (4 cos wo cos wi) + Kd Base with F at the angle between wo and the half vector; 0 if wo and wi
+///            are on different sides. Light that would hit a second facet is lost. White paint over LayeredBase has an
+///            albedo of at most 1; see notebooks-data/single-scattering/albedo.csv.
+///   sample : mirrors wo about a visible normal, or samples a cosine-distributed direction, in proportion to the light
+///            that coat and base reflect. The pdf is the density of the mixture [1/sr].
+///   throws : Error unless eta is a checked_ior, alpha lies in [1e-4, 1] and the colours in [0, 1].
 template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Base> {
  public:
+  /// Paint with a coat of relative index eta and roughness alpha.
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
       : CoatedDiffuse<Base>("rough plastic", eta, alpha, diffuse, specular), facets_(alpha) {}
 
@@ -126,7 +135,7 @@ template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Ba
       wi = mc::CosineHemisphere<Float>{}.sample(u);
     }
     if (!(wi.z() > 0)) return {};
-    const Reflection r(wo, wi); // the rounded wi has a normal of its own
+    const Reflection r(wo, wi); // half vector of the rounded wi, as in eval and pdf
     const Float density = share * normals.pdf_reflected(r.m) + (1 - share) * wi.z() * inv_pi;
     if (!(density > 0)) return {};
     return BsdfSample{to_upper_side(wi, unflipped_wo), value(r), density};
@@ -141,7 +150,7 @@ template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Ba
     const Float share = specular_probability(r->wo);
     return share * facets_.visible_normals(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
-  /// The same paint of these colours, which lie in [0, 1].
+  /// The same paint with other colours. The caller ensures that they lie in [0, 1].
   RoughPlastic with_colors(const Spectrum& diffuse, const Spectrum& specular) const {
     RoughPlastic paint = *this;
     paint.set_colors(diffuse, specular);

@@ -5,12 +5,13 @@
 
 namespace render {
 
-/// A mirror of metal, the same on both sides: what RoughConductor tends to.
-///   eta, k : its index of refraction and extinction coefficient over the index of the outside, per channel
-///   f      : a delta lobe of weight Ks F
-///   throws : Error for what RoughConductor does not take either
+/// Metal mirror, the same on both sides: the limit of RoughConductor for alpha -> 0.
+///   eta, k : index of refraction and extinction coefficient over the index of the outside, per channel.
+///   f      : a delta lobe of weight Ks F.
+///   throws : Error unless eta and k lie in [0, 1e6] and are never both 0, and the colour lies in [0, 1].
 class SmoothConductor {
  public:
+  /// Mirror of a metal; `reflectance` scales the Fresnel term.
   SmoothConductor(const Spectrum& eta, const Spectrum& k, const Spectrum& reflectance = Spectrum::Ones())
       : eta_(checked_conductor("conductor", eta, k)), k_(k),
         reflectance_(checked_reflectance("conductor: specularReflectance", reflectance)) {}

@@ -1,17 +1,19 @@
 #pragma once
-/// Polished paint: a smooth dielectric layer over a diffuse base.
+/// Polished paint: a smooth dielectric coat over a diffuse base.
 
 #include <render/bsdf/rough_plastic.h>
 
 namespace render {
 
-/// A smooth coat over a diffuse base, the same on both sides: what RoughPlastic tends to.
-///   eta    : index of refraction of the layer over that of the outside
-///   f      : of the coat a delta lobe of weight Ks F, F that of wo; Kd Base about it, as of RoughPlastic
-///   sample : the mirror direction, or a cosine hemisphere, by what each reflects
-///   throws : Error unless eta is a checked_index and the colours lie in [0, 1]
+/// Smooth coat over a diffuse base, the same on both sides: the limit of RoughPlastic for alpha -> 0.
+///   eta    : index of refraction of the coat over the index of the outside.
+///   f      : a delta lobe of weight Ks F, with F at wo, plus Kd Base as in RoughPlastic.
+///   sample : the mirror direction or a cosine-distributed direction, in proportion to the light that coat and base
+///            reflect.
+///   throws : Error unless eta is a checked_ior and the colours lie in [0, 1].
 template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<Base> {
  public:
+  /// Paint with a coat of relative index eta.
   SmoothPlastic(Float eta, const Spectrum& diffuse, const Spectrum& specular)
       : CoatedDiffuse<Base>("plastic", eta, 0, diffuse, specular) {}
 
@@ -37,7 +39,7 @@ template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<B
     const auto r = reflection(wo, wi);
     return r ? mc::Bernoulli<Float>(specular_probability(r->wo)).pmf(0) * r->wi.z() * inv_pi : Float(0);
   }
-  /// The same paint of these colours, which lie in [0, 1].
+  /// The same paint with other colours. The caller ensures that they lie in [0, 1].
   SmoothPlastic with_colors(const Spectrum& diffuse, const Spectrum& specular) const {
     SmoothPlastic paint = *this;
     paint.set_colors(diffuse, specular);

@@ -1,23 +1,25 @@
 #pragma once
-/// Paint whose colours vary over a surface.
+/// Paint with colours that vary over a surface.
 
 #include <render/bsdf/smooth_plastic.h>
 #include <render/texture/texture.h>
 
 namespace render {
 
-/// A RoughPlastic or SmoothPlastic for every point of a surface.
-///   untextured   : the paint with the colours that do not vary
-///   throws : Error unless all of the textures lies in [0, 1]
+/// RoughPlastic or SmoothPlastic with textures as colours.
+///   untextured : the paint, with the colours that have no texture.
+///   throws     : Error unless the textures lie in [0, 1].
 template <class Plastic> class TexturedPlastic {
  public:
+  /// Paint with textures for the colours of base (diffuse) and coat (specular).
   TexturedPlastic(Plastic untextured, std::optional<Texture> diffuse, std::optional<Texture> specular)
       : untextured_(std::move(untextured)), diffuse_(std::move(diffuse)), specular_(std::move(specular)) {
     if (diffuse_) diffuse_->require_reflectance("plastic: diffuseReflectance");
     if (specular_) specular_->require_reflectance("plastic: specularReflectance");
   }
+  /// The paint without textures.
   const Plastic& untextured() const { return untextured_; }
-  /// Interpolation may round above 1.
+  /// The BSDF at uv, with colours of at most 1: interpolation may round above 1.
   Plastic at(const Vec2d& uv) const {
     const auto color = [&](const std::optional<Texture>& texture, const Spectrum& constant) {
       return texture ? Spectrum(texture->eval(uv).min(Float(1))) : constant;
