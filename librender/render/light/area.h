@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes that shine.
+/// Emitting shapes.
 
 #include <render/light/concept.h>
 #include <render/shape/shape.h>
@@ -8,18 +8,18 @@
 
 namespace render {
 
-/// What an emitting surface sends out: the same radiance in every direction, from the side its normal points to unless
-/// two_sided.
+/// Emission of a surface: constant radiance in all directions on the side of its normal, or on both sides.
 struct Emission {
-  Spectrum radiance = Spectrum::Ones();
-  bool two_sided = false;
+  Spectrum radiance = Spectrum::Ones(); ///< Emitted radiance.
+  bool two_sided = false;               ///< Whether both sides emit.
 };
 
 /// A shape that emits.
-///   sample : a point of the shape, as it samples itself
-///   throws : Error unless the radiance is finite and >= 0 and the shape has an area
+///   sample : a point by the shape's own sampling from the reference point.
+///   throws : Error unless the radiance is finite and >= 0 and the area of the shape is > 0.
 class AreaLight {
  public:
+  /// A light of a shape.
   AreaLight(std::shared_ptr<const Shape> shape, const Emission& emission)
       : shape_(std::move(shape)), radiance_(checked_radiance("area light: radiance", emission.radiance)),
         two_sided_(emission.two_sided) {
@@ -38,6 +38,7 @@ class AreaLight {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? shape_->pdf(ref, wi, *light_point) : Float(0);
   }
+  /// Luminous power [W].
   double power(double) const {
     return mc::pi<double> * shape_->area() * double(luminance(radiance_)) * (two_sided_ ? 2 : 1);
   }
@@ -48,9 +49,11 @@ class AreaLight {
   bool is_infinite() const { return false; }
   bool is_sampled() const { return true; }
 
-  /// Radiance of either side that shines.
+  /// Radiance of each emitting side.
   const Spectrum& radiance() const { return radiance_; }
+  /// Whether both sides emit.
   bool is_two_sided() const { return two_sided_; }
+  /// The emitting shape.
   const Shape& shape() const { return *shape_; }
 
  private:

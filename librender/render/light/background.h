@@ -1,5 +1,5 @@
 #pragma once
-/// Skies without detail.
+/// Constant and gradient skies.
 
 #include <render/light/concept.h>
 
@@ -9,10 +9,11 @@
 namespace render {
 
 /// The same radiance from every direction.
-///   sample : uniform on the sphere
-///   throws : Error unless the radiance is finite and >= 0
+///   sample : uniform on the sphere.
+///   throws : Error unless the radiance is finite and >= 0.
 class ConstantBackground {
  public:
+  /// A sky of constant radiance.
   explicit ConstantBackground(const Spectrum& radiance)
       : radiance_(checked_radiance("constant background: radiance", radiance)) {}
 
@@ -26,6 +27,7 @@ class ConstantBackground {
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? Float(0) : mc::UniformSphere<Float>{}.pdf(wi);
   }
+  /// Luminous power [W] into a ball of this radius.
   double power(double radius) const { return 4 * mc::sqr(mc::pi<double> * radius) * double(luminance(radiance_)); }
   double irradiance(const Vec3&) const { return mc::pi<double> * double(luminance(radiance_)); }
   bool is_delta() const { return false; }
@@ -36,11 +38,13 @@ class ConstantBackground {
   Spectrum radiance_;
 };
 
-/// Linear in the height of the direction: `bottom` at -y, `top` at +y. The sky of [Shirley16] is white to (.5, .7, 1).
-///   sample : by luminance: the height linear, the azimuth uniform
-///   throws : Error unless both colours are finite and >= 0
+/// Radiance that is linear in the height of the direction: `bottom` at -y, `top` at +y. The default is the sky of
+/// [Shirley16], from white to (.5, .7, 1).
+///   sample : linear in the height by luminance, uniform in azimuth.
+///   throws : Error unless both colours are finite and >= 0.
 class GradientBackground {
  public:
+  /// A sky between two colours.
   explicit GradientBackground(const Spectrum& bottom = Spectrum::Ones(),
                               const Spectrum& top = Spectrum(Float(0.5), Float(0.7), 1))
       : bottom_(checked_radiance("gradient background: bottom", bottom)),
@@ -54,7 +58,7 @@ class GradientBackground {
     return (1 - t) * bottom_ + t * top_;
   }
   std::optional<LightSample> sample(const Vec3& ref, const Vec2& u) const {
-    // The sphere's chart goes from the pole at 0 to the other one at 1, uniformly in the height.
+    // The sphere's chart maps [0, 1] uniformly in height from one pole to the other.
     const Vec3 w = mc::UniformSphere<Float>{}.sample({1 - height_.sample(u[0]), u[1]});
     const Vec3 wi(w.y(), w.z(), w.x());
     const Float density = pdf(ref, wi, nullptr);
@@ -64,6 +68,7 @@ class GradientBackground {
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? Float(0) : height_.pdf(height(wi)) * mc::UniformSphere<Float>{}.pdf(wi);
   }
+  /// Luminous power [W] into a ball of this radius.
   double power(double radius) const {
     return 2 * mc::sqr(mc::pi<double> * radius) * (double(luminance(bottom_)) + double(luminance(top_)));
   }

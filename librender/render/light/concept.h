@@ -1,5 +1,5 @@
 #pragma once
-/// What a light gives: radiance where it is met, and samples of the directions towards it.
+/// Concept of a light: emitted radiance, and samples of directions toward the light.
 
 #include <render/shape/concept.h>
 
@@ -7,25 +7,26 @@
 
 namespace render {
 
-/// A direction from a reference point towards a light.
+/// A sampled direction from a reference point toward a light.
 struct LightSample {
-  Vec3 wi;           ///< unit direction from the reference point
-  Spectrum radiance; ///< arrives along it where nothing stands between; of a delta light: its irradiance across wi
-  Float pdf = 0;     ///< density of wi [1/sr]; of a delta light 1
-  std::optional<SurfacePoint> point; ///< the light's point; none: it is infinitely far away
+  Vec3 wi;                           ///< Unit direction from the reference point.
+  Spectrum radiance;                 ///< Radiance along wi if unoccluded; for a delta light its irradiance across wi.
+  Float pdf = 0;                     ///< Density of wi [1/sr]; 1 for a delta light.
+  std::optional<SurfacePoint> point; ///< Point of the light; none if it is infinitely far away.
 };
 
-/// Lights are a closed set (light.h). What a ray meets is a point of a surface, or nothing (null): lights at infinity
-/// shine where nothing is met. Each models:
-///   emitted(wi, met)   : radiance that arrives along wi (unit, leaving the reference point) from what was met
-///   sample(ref, u)     : u in [0,1)^2 -> a direction from ref; nullopt where none can be found
-///   pdf(ref, wi, met)  : density [1/sr] with which sample(ref, .) picks wi, as far as it is due to what was met; 0 for
-///                        a delta light
-///   power(radius)      : luminous power [W] into a scene that a ball of this radius holds
-///   irradiance(ref)    : about the most luminous irradiance [W/m^2] that it can cause at ref, > 0 unless it is dark
-///   is_delta()         : no ray can meet it, only sample() finds it
-///   is_infinite()      : it shines where a ray leaves the scene
-///   is_sampled()       : sampling it beats meeting it by chance, so integrators connect to it
+/// Lights are a closed set (light.h). `light_point` is the hit of a ray on a light, or null if the ray leaves the
+/// scene: infinite lights emit along such rays. A light models:
+///   Le(wi, light_point)       : radiance that arrives along wi, a unit vector away from the reference point.
+///   sample(ref, u)            : maps u in [0,1)^2 to a direction from ref; nullopt if there is none.
+///   pdf(ref, wi, light_point) : density [1/sr] with which sample(ref, .) selects wi by way of `light_point`; 0 for a
+///                               delta light.
+///   power(radius)             : luminous power [W] into a scene within a ball of this radius.
+///   irradiance(ref)           : approximate upper bound of the luminous irradiance [W/m^2] at ref; > 0 unless the
+///                               light is black.
+///   is_delta()                : rays cannot hit it; only sample() finds it.
+///   is_infinite()             : it emits along rays that leave the scene.
+///   is_sampled()              : sampling it is better than hits, so integrators connect to it.
 template <class T>
 concept LightLike = requires(const T l, Vec3 ref, Vec3 wi, Vec2 u, const SurfacePoint* light_point, double radius) {
   { l.Le(wi, light_point) } -> std::convertible_to<Spectrum>;

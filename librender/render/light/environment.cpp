@@ -6,8 +6,8 @@ namespace render {
 
 namespace {
 
-// Mean luminance of the bilinear picture over each texel: an eighth of the neighbours on both sides and six eighths of
-// itself, along both axes. So no direction that is not black lies in a texel that is never sampled.
+// Mean luminance over each texel of the bilinear image. Along both axes it weighs the texel by 6/8 and its neighbours
+// by 1/8. So every texel with a direction that is not black has a positive probability.
 std::vector<double> texel_means(const Texels& t) {
   const auto w = static_cast<std::size_t>(t.width), h = static_cast<std::size_t>(t.height);
   std::vector<double> rows(w * h), means(w * h);
@@ -48,7 +48,7 @@ Environment::Environment(std::shared_ptr<const Texels> texels, const Transform& 
 Vec2 Environment::place(const Vec3& wi) const {
   const Vec3 d = to_local_ * wi;
   const Float turn = std::atan2(d.x(), -d.z()) / (2 * mc::pi<Float>);
-  // The angle from the pole by its tangent: acos would lose half the digits there.
+  // The polar angle by atan2: acos would lose half the digits near the pole.
   const Float v = std::atan2(std::hypot(d.x(), d.z()), d.y()) / mc::pi<Float>;
   return {std::min(turn - std::floor(turn), mc::one_minus_epsilon<Float>),
           std::clamp(v, Float(0), mc::one_minus_epsilon<Float>)};

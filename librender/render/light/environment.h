@@ -1,5 +1,5 @@
 #pragma once
-/// A picture of everything that is far away.
+/// Environment maps.
 
 #include <render/core/transform.h>
 #include <render/light/concept.h>
@@ -11,15 +11,16 @@
 
 namespace render {
 
-/// Radiance from a latitude-longitude picture. Of the local direction d the picture shows v = acos(d_y) / pi, +y being
-/// the top row, and u = atan2(d_x, -d_z) / 2 pi: -z lies at the left edge, +x a quarter to the right.
-///   Le : bilinear between texel centres, u repeats, v ends at the poles
-///   sample  : a texel by the mean of its luminance times its solid angle, uniform in (u, v) within
-///   pdf     : of the texel over 2 pi^2 sin(theta) [1/sr]
-///   throws  : Error unless all texels are finite and >= 0 and one is not black, scale is finite and > 0, and to_world
-///             is a rotation, a mirroring one too, to 1e-3
+/// Radiance from a latitude-longitude image. The local direction d maps to v = acos(d_y) / pi, with +y at the top row,
+/// and u = atan2(d_x, -d_z) / 2 pi: -z is at the left edge, +x at a quarter of the width.
+///   Le     : bilinear between texel centres; u repeats, v ends at the poles.
+///   sample : selects a texel in proportion to its mean luminance times its solid angle; uniform in (u, v) within.
+///   pdf    : density in (u, v) over 2 pi^2 sin(theta) [1/sr].
+///   throws : Error unless all texels are finite and >= 0, some texel is not black, scale is finite and > 0, and
+///            to_world is a rotation up to 1e-3; a mirroring is allowed.
 class Environment {
  public:
+  /// A light of an image, rotated by `to_world`, with radiance times `scale`.
   Environment(std::shared_ptr<const Texels> texels, const Transform& to_world = {}, double scale = 1);
 
   Spectrum Le(const Vec3& wi, const SurfacePoint* light_point) const {
@@ -29,6 +30,7 @@ class Environment {
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? Float(0) : density(place(wi));
   }
+  /// Luminous power [W] into a ball of this radius.
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * flux_; }
   double irradiance(const Vec3&) const { return flux_; }
   bool is_delta() const { return false; }
@@ -36,15 +38,15 @@ class Environment {
   bool is_sampled() const { return true; }
 
  private:
-  Vec2 place(const Vec3& wi) const; ///< (u, v) of a direction
+  Vec2 place(const Vec3& wi) const; ///< Image coordinates (u, v) of a direction.
   Spectrum radiance(const Vec2& uv) const;
-  Float density(const Vec2& uv) const; ///< [1/sr]
+  Float density(const Vec2& uv) const; ///< Density [1/sr].
 
   std::shared_ptr<const Texels> texels_;
   Eigen::Matrix<Float, 3, 3> to_local_;
   Float scale_;
-  std::shared_ptr<const mc::TableDist2D<Float>> table_; ///< shared by copies
-  double flux_ = 0;                                     ///< luminance over the sphere
+  std::shared_ptr<const mc::TableDist2D<Float>> table_; ///< Shared by copies.
+  double flux_ = 0;                                     ///< Integral of luminance over the sphere.
 };
 
 } // namespace render

@@ -9,7 +9,7 @@
 
 namespace render {
 
-/// One of the lights; itself models LightLike.
+/// Any of the lights; itself models LightLike.
 struct Light
     : std::variant<AreaLight, ConstantBackground, GradientBackground, Environment, PointLight, DirectionalLight> {
   using variant::variant;
@@ -23,6 +23,7 @@ struct Light
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
     return dispatch(*this, [&](const auto& l) { return l.pdf(ref, wi, light_point); });
   }
+  /// Luminous power [W] into a ball of this radius.
   double power(double radius) const {
     return dispatch(*this, [&](const auto& l) { return l.power(radius); });
   }

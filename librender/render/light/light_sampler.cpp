@@ -7,7 +7,7 @@ namespace render {
 
 namespace {
 
-// Adds a uniform part of a third.
+// Adds a uniform part of 1/3.
 void add_defensive_part(std::span<double> weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (double& w : weights) w += sum / (2 * double(weights.size()));
@@ -40,7 +40,7 @@ mc::ShortDiscrete<Float, LightSampler::max_weighted_lights> LightSampler::distri
   const std::span<double> used(weights.data(), candidates_.size());
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = lights[candidates_[i]].irradiance(ref);
   add_defensive_part(used);
-  // Shares, since floats would not hold every irradiance.
+  // Normalised, since floats would not represent every irradiance.
   const double sum = std::accumulate(used.begin(), used.end(), 0.0);
   std::array<Float, max_weighted_lights> shares;
   for (std::size_t i = 0; i < used.size(); ++i) shares[i] = Float(used[i] / sum);
