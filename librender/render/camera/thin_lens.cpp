@@ -6,7 +6,7 @@ namespace render {
 
 namespace {
 
-constexpr double most_skewed = 1e-4; // relative; files give frames to six digits or so
+constexpr double most_skewed = 1e-4; // relative tolerance; files contain frames with about six digits
 
 } // namespace
 

@@ -10,43 +10,58 @@
 
 namespace render {
 
-/// Which side of the film the field of view spans.
-enum class FovAxis { x, y, smaller, larger, diagonal };
+/// The axis of the film that the field of view spans.
+enum class FovAxis {
+  x,       ///< Horizontal axis.
+  y,       ///< Vertical axis.
+  smaller, ///< Shorter axis.
+  larger,  ///< Longer axis.
+  diagonal ///< Diagonal.
+};
 
+/// Field of view, lens and clipping of a camera.
 struct LensOptions {
-  FovAxis fov_axis = FovAxis::x;
-  double fov = 90;                   ///< along fov_axis [degrees]
-  double radius = 0;                 ///< of the lens [scene units]; 0: a pinhole
-  double focus_distance = 1;         ///< to the plane in focus [scene units]
-  double near = 0;                   ///< what stands closer before the lens is cut away [scene units]
-  double far = mc::infinity<double>; ///< and what stands farther
+  FovAxis fov_axis = FovAxis::x;     ///< Axis of the field of view.
+  double fov = 90;                   ///< Field of view along fov_axis [degrees].
+  double radius = 0;                 ///< Radius of the lens [scene units]; 0: a pinhole.
+  double focus_distance = 1;         ///< Distance of the plane in focus [scene units].
+  double near = 0;                   ///< Distance of the near plane [scene units]; nearer objects are invisible.
+  double far = mc::infinity<double>; ///< Distance of the far plane [scene units]; farther objects are invisible.
 };
 
-/// How a point is seen from a point of the lens.
+/// Connection of a scene point to a point of the lens.
 struct CameraWiSample {
-  Vec2 s;              ///< of the film, see ThinLens::ray
-  Vec3 wi;             ///< unit direction from the point to the lens
-  Float t_max;         ///< from the point along d to the near plane
-  Float distance;      ///< to the lens
-  Float direction_pdf; ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
+  Vec2 s;              ///< Film point as in ThinLens::ray.
+  Vec3 wi;             ///< Unit direction from the scene point to the lens.
+  Float t_max;         ///< Distance from the scene point along wi to the near plane.
+  Float distance;      ///< Distance to the lens.
+  Float direction_pdf; ///< Density [1/sr] of the direction from the lens, for s uniform in [0,1]^2.
 };
 
-/// A thin lens focused on a plane; of radius 0 a pinhole.
-///   to_world : its frame: x to the left, y up, z forward; how long they are changes nothing
-///   throws   : Error unless the frame is finite, its axes not 0, equally long and orthogonal (to 1e-4), 0 < fov < 180,
-///              radius and near are finite and >= 0, focus_distance is finite and > 0, far > near
+/// A thin lens that is focused on a plane; with radius 0 a pinhole.
+///   to_world : camera frame with x to the left, y up and z forward. The common length of the axes does not matter.
+///   throws   : Error unless the frame is finite, with axes that are not 0, of equal length and orthogonal up to 1e-4;
+///              and 0 < fov < 180, radius and near are finite and >= 0, focus_distance is finite and > 0, and far >
+///              near.
 class ThinLens {
  public:
+  /// A camera in a frame.
   explicit ThinLens(const Transform& to_world = {}, const LensOptions& options = {});
 
+  /// Centre of the lens.
   const Vec3& origin() const { return origin_; }
+  /// Unit vector to the right.
   const Vec3& right() const { return right_; }
+  /// Unit vector upward.
   const Vec3& up() const { return up_; }
+  /// Unit vector of the view direction.
   const Vec3& forward() const { return forward_; }
+  /// Radius of the lens.
   Float radius() const { return radius_; }
+  /// Distance of the near plane.
   Float near() const { return near_; }
 
-  /// Tangents of half the horizontal and vertical field of view for a film of width / height = aspect.
+  /// Tangents of half the horizontal and half the vertical field of view. `aspect` is width / height of the film.
   Vec2 tan_half(Float aspect) const {
     if (fov_axis_ == FovAxis::diagonal) return Vec2(aspect, 1) * (tan_half_fov_ / std::hypot(aspect, Float(1)));
     const bool along_x = fov_axis_ == FovAxis::x || (fov_axis_ == FovAxis::smaller && aspect < 1) ||
@@ -54,8 +69,8 @@ class ThinLens {
     return along_x ? Vec2(tan_half_fov_, tan_half_fov_ / aspect) : Vec2(tan_half_fov_ * aspect, tan_half_fov_);
   }
 
-  /// The ray through the film point s in [0,1]^2, (0,0) its top left corner; u in [0,1)^2 chooses the point of the
-  /// lens.
+  /// Camera ray through the film point s in [0,1]^2, with (0,0) in the top left corner. u in [0,1)^2 selects the point
+  /// of the lens.
   Ray ray(const Vec2& s, const Vec2& tan_half_xy, const Vec2& u) const {
     const Vec3 toward = right_ * ((2 * s[0] - 1) * tan_half_xy[0]) + up_ * ((1 - 2 * s[1]) * tan_half_xy[1]) + forward_;
     Vec3 start = origin_, d = toward;
@@ -65,12 +80,13 @@ class ThinLens {
       start += offset;
       d = toward - offset / focus_distance_;
     }
-    // d.dot(forward) = 1, so `near` steps of d reach the near plane, and `depth` more the far one.
+    // d.dot(forward) = 1, so `near` times d reaches the near plane, and `depth` times d leads from there to the far
+    // plane.
     return {start + near_ * d, d.normalized(), depth_ * d.norm()};
   }
 
-  /// How p is seen from the point of the lens that u chooses; none where it lies outside of near and far. s may lie
-  /// beside the film.
+  /// Connection of p to the point of the lens that u selects; none if p is not between the near and far planes. s may
+  /// lie outside the film.
   std::optional<CameraWiSample> sample_wi(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
     Vec3 offset = Vec3::Zero();
     if (radius_ > 0) {
@@ -89,14 +105,14 @@ class ThinLens {
                           1 / (cosine * cosine * cosine * area)};
   }
 
-  /// The density of SeenPoint, of a ray's direction.
+  /// Density [1/sr] of a camera ray's direction; see CameraWiSample.
   Float direction_pdf(const Vec3& d, const Vec2& tan_half_xy) const {
     const Float cosine = d.dot(forward_);
     return 1 / (cosine * cosine * cosine * 4 * tan_half_xy[0] * tan_half_xy[1]);
   }
 
  private:
-  Vec3 origin_, right_, up_, forward_; ///< the axes orthonormal
+  Vec3 origin_, right_, up_, forward_; ///< Centre of the lens, and orthonormal axes.
   FovAxis fov_axis_;
   Float tan_half_fov_, radius_, focus_distance_, near_, depth_;
 };
