@@ -14,8 +14,8 @@ class SplatAccumulator {
   /// Adds a sample at an offset from the pixel's centre [pixels].
   void add(const Vec2& offset, const Spectrum& radiance);
 
-  /// Adds the splats since the last call to a point set of the film. The samples lie in the square of pixel (x, y), which
-  /// may be outside the film.
+  /// Adds the splats since the last call to a point set of the film. The samples lie in the square of pixel (x, y).
+  /// This pixel may be outside the film.
   void flush_to(Film& film, int x, int y, int set);
 
  private:
