@@ -1,13 +1,13 @@
 #pragma once
-/// How the tests of check_subject share the family-wise alpha.
+/// Shares of the family-wise alpha among the tests of check_subject.
 
 #include <array>
 #include <cstdint>
 
 namespace mc {
 
-/// The statistical tests of a subject. Where one is made several times (per axis, per level of the tree, per pair of
-/// axes) its share is divided evenly among them.
+/// The statistical tests of a subject. A test that runs several times (per axis, per level of the tree, per pair of
+/// axes) divides its share evenly among its repetitions.
 enum class FitTest : std::uint8_t {
   chi_square,
   single_cells,
@@ -24,6 +24,7 @@ enum class FitTest : std::uint8_t {
   density_ratio
 };
 
+/// Share of one test in the family-wise alpha.
 struct AlphaShare {
   FitTest test;
   double discrete, one_axis, more_axes; ///< share of alpha for subjects without axes, with one, with two or three
@@ -34,7 +35,7 @@ struct AlphaShare {
   }
 };
 
-/// The scores (tails) are the most powerful against the faults that samplers have.
+/// Scores (tails) are the most powerful tests against common faults of distributions.
 inline constexpr std::array<AlphaShare, 13> alpha_shares{{
     {FitTest::chi_square, 0.61, 0.22, 0.22},
     {FitTest::single_cells, 0.30, 0.12, 0.12},
@@ -51,7 +52,7 @@ inline constexpr std::array<AlphaShare, 13> alpha_shares{{
     {FitTest::spectrum, 0, 0.05, 0.05},
 }};
 
-/// The share of alpha that a test spends on a subject with `dim` axes, all its repetitions together.
+/// Returns the share of alpha that all repetitions of a test spend together on a subject with `dim` axes.
 constexpr double alpha_share(FitTest test, int dim) {
   for (const AlphaShare& s : alpha_shares)
     if (s.test == test) return s.at_dimension(dim);

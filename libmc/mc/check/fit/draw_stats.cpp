@@ -31,7 +31,7 @@ void merge(DrawStats::Violation& x, const DrawStats::Violation& y) {
   x.count = count;
 }
 
-// Whether the draw is a point or an outcome at all.
+// Returns whether the draw is a point or a listed outcome; else counts the violation.
 bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, DrawStats& stats) {
   switch (d.kind) {
   case Kind::failed: note(stats.failed, seed, index); return false;
@@ -46,15 +46,15 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
   return false;
 }
 
-// Rounding puts hardly a sample where the density vanishes, but many where it is infinite.
+// Rounding moves very few samples onto a zero of the density, but many onto a pole.
 constexpr std::uint64_t most_rounded = 3;
 
-// The density that a point without one has beside it. Of a sampler that is broken beyond doubt no more is asked: it may
-// answer slowly.
+// Returns the density beside a point that has none itself. Once violations exceed the tolerance the distribution is
+// broken, and the search stops: its density may be slow.
 std::optional<double> rounded_from(const Subject& s, const Subject::Draw& d, const DrawStats& stats) {
   if (d.pdf_positive || d.kind != Kind::point || stats.zero_pdf.count + stats.non_finite_pdf.count > most_rounded)
     return {};
-  if (d.density == 0) // the way through the chart rounds, too
+  if (d.density == 0) // the map through the chart rounds, too
     if (const double there = s.density(d.v); there > 0 && std::isfinite(there)) return there;
   return adjacent_density(s, d.v);
 }
@@ -65,9 +65,9 @@ DrawStats::Violation& density_violation(const Subject& s, const Subject::Draw& d
   return d.kind == Kind::point && d.density < 0 && s.density(d.v) < 0 ? stats.negative_pdf : stats.zero_pdf;
 }
 
-// How much the claimed density changes within four steps of rounding about a point, relative. The density that a
-// sampler had in mind, before it rounded its point, differs by as much: in sharp lobes of float by more than any
-// tolerance.
+// Returns the relative change of the claimed density within four steps of rounding about a point. The distribution
+// computes its stated density before it rounds the point, so the two densities may differ by this amount. In sharp
+// lobes over float it exceeds any fixed tolerance.
 double spread_by_rounding(const Subject& s, const Subject::Coordinates& v) {
   double spread = 0;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
@@ -83,14 +83,14 @@ double spread_by_rounding(const Subject& s, const Subject::Coordinates& v) {
   return std::isfinite(spread) ? spread : 0.0;
 }
 
-// |weight - 1| beyond what rounding of the point explains.
+// Returns |weight - 1| beyond the error that rounding of the point explains.
 double weight_error(const Subject& s, const Subject::Draw& d) {
   const double off = std::abs(d.weight - 1);
   if (off <= s.weight_tolerance || d.kind != Kind::point) return off;
   return std::max(off - spread_by_rounding(s, d.v), s.weight_tolerance);
 }
 
-// Counts what is broken about a draw; the density of a point, none where it is no point of the domain.
+// Counts the violations of a draw. Returns the density of a point of the domain; no value for other draws.
 std::optional<double> count_draw(const Subject& s, const Subject::Draw& d, std::uint64_t stream, std::uint64_t index,
                                  DrawStats& stats) {
   ++stats.draws;
@@ -99,7 +99,7 @@ std::optional<double> count_draw(const Subject& s, const Subject::Draw& d, std::
   if (!d.pdf_positive) note(density_violation(s, d, rounded.has_value(), stats), stream, index);
   const double off = weight_error(s, d);
   if (!(off <= s.weight_tolerance)) note(stats.weight, stream, index);
-  // Not a number is worse than any.
+  // NaN counts as the largest error.
   stats.max_weight_error =
       std::max(stats.max_weight_error, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
   if (d.kind == Kind::atom) {
@@ -110,7 +110,7 @@ std::optional<double> count_draw(const Subject& s, const Subject::Draw& d, std::
   return d.density >= 0 ? d.density : s.density(d.v);
 }
 
-// Whether nothing is to be said of a draw but where it lies: true of nearly all.
+// Whether only the position of a draw matters, which is true for nearly all draws.
 bool is_plain(const Subject::Draw& d) {
   return d.kind == Kind::point && d.pdf_positive && d.weight == 1 && d.density >= 0;
 }
@@ -179,7 +179,7 @@ DrawStats merge(DrawStats a, const DrawStats& b) {
 
 std::vector<Check> check_draws(const Subject& s, const DrawStats& stats, bool open_interval) {
   std::vector<Check> checks;
-  // `finding` says of the first such sample what is wrong, and perhaps more after "; ".
+  // `finding` describes the violation of the first such draw; remarks follow after "; ".
   const auto add = [&](const char* name, const DrawStats::Violation& b, Fault fault, double statistic, double limit,
                        const std::string& finding) {
     Check c{name, b.count == 0 ? Verdict::pass : Verdict::fail, {}, 0, statistic, limit, fault, {}};

@@ -16,12 +16,11 @@ Subject::Coordinates moved_inside(Subject::Coordinates v, int dim, double step =
   return v;
 }
 
-// Whether a coordinate lies beside the face at 0, nearer than 2^-500 and yet not on it: only where the density is about
-// 1 / x are there samples.
+// Whether a coordinate is in (0, 2^-500). Only densities like 1 / x put samples there.
 bool is_deep(double v) { return v > 0 && v < 0x1p-500; }
 
-// Singularities at an end that is not 0 are infinite where the chart's points are rounded onto it. Of a density that
-// is infinite beside such a point, too, no more is asked: it may answer slowly.
+// A pole at an end other than 0 is infinite at points of the chart that are rounded onto it. If the density is infinite
+// beside such a point too, the search stops: the density may be slow.
 void ask_beside_poles(const Subject& s, std::span<const Subject::Coordinates> v, std::span<double> densities) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (densities[i] != std::numeric_limits<double>::infinity()) continue;

@@ -1,5 +1,5 @@
 #pragma once
-/// Samples in a bin against random points that say how many belong there.
+/// Counts of samples in a bin, compared with random points that estimate the expected count.
 
 #include <mc/core/types.h>
 
@@ -7,15 +7,15 @@
 
 namespace mc {
 
-/// Sums of the weights of both in one bin. One random point may stand for far more samples than another. Where those
-/// that stand for many are rare, none may have met the bin; so each sample also says what a point at its place would
-/// stand for. Likewise, where most samples of the bin weigh little, none of full weight may have met it; so each point
-/// also says what a sample at its place would weigh.
+/// Sums of the weights of the samples and of the random points in one bin. A random point may represent many more
+/// samples than another. If such points are rare, a bin may contain none by chance, and the points alone would
+/// underestimate the variance. Each sample therefore adds the share that a random point at its position would have. For
+/// the same reason, each random point adds the weight that a sample at its position would have.
 struct WeightedCounts {
   double observed = 0, observed_squares = 0;
   double expected = 0, expected_squares = 0;
-  double shares = 0;  ///< of the samples: weight times the share that a random point at its place has
-  double weights = 0; ///< of the random points: share times the weight that a sample at its place has
+  double shares = 0;  ///< sum over samples of the weight times the share of a random point there
+  double weights = 0; ///< sum over random points of the share times the weight of a sample there
 
   void add_sample(double weight, double share) {
     observed += weight;
@@ -37,21 +37,23 @@ struct WeightedCounts {
   }
 };
 
-/// Both as counts of the same bin: that many samples, each with its variance, were expected.
+/// Two estimates of the same count, each with its variance.
 struct CountComparison {
   double excess = 0;                              ///< observed - expected, in samples
-  double mean = 0;                                ///< of what both say, each by its precision
-  double spread = 1;                              ///< variance of the excess is spread times mean
-  double sample_variance = 1, point_variance = 1; ///< spread is their sum
-  double observed = 0, expected = 0;
+  double mean = 0;                                ///< mean of observed and expected, weighted by precision
+  double spread = 1;                              ///< variance of the excess is spread * mean
+  double sample_variance = 1, point_variance = 1; ///< contributions to spread; their sum
+  double observed = 0, expected = 0;              ///< counts, in samples
+  /// Returns the excess in standard deviations.
   double z() const;
-  /// How many samples the comparison is worth: the excess is nearly normal where this is large.
+  /// Returns the effective number of samples in the comparison. The excess is nearly normal if this number is large.
   double information() const { return mean / spread; }
-  /// Two-sided: given both counts together, the samples among them are binomial.
-  ///   Source : [PrzyborowskiWilenski40]
+  /// Returns the two-sided p-value. Given the sum of both counts, the number of samples is binomial.
+  ///   Source : [PrzyborowskiWilenski40].
   double p() const;
 };
-/// scale : samples for each unit of expectation
+/// Compares the counts of a bin.
+///   scale : number of samples per unit of expectation.
 CountComparison compare(const WeightedCounts& bin, double scale);
 
 } // namespace mc

@@ -10,8 +10,8 @@
 namespace mc {
 namespace {
 
-// Nodes on [0,1] of nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals, on the nodes of the finest; and at each
-// node that a rule adds to the next coarser one, the weights of the coarser interpolant there.
+// Nodes on [0,1] of nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals. For each node that a rule adds to the
+// next coarser rule, the weights of the coarser interpolant there.
 struct Rule {
   struct Surplus {
     std::size_t node;
@@ -40,7 +40,7 @@ struct Rule {
         surpluses[static_cast<std::size_t>(level)].push_back(std::move(s));
       }
     }
-    // Just inside the faces: what holds on the far side of a face is another box's business.
+    // Slightly inside the faces: values on the far side of a face belong to another box.
     x.front() = 0x1p-24;
     x.back() = 1 - 0x1p-24;
   }
@@ -62,7 +62,7 @@ struct Region {
   UnitBox box;
   double value = 0, error = 0;
   int owner = 0, axis = 0;
-  bool rough = false; // the finer rule was of no use: halve with the cheaper one
+  bool rough = false; // the finer rule did not help: halve with the cheaper rule
   bool operator<(const Region& other) const { return error < other.error; }
 };
 
@@ -103,8 +103,8 @@ class Integrator {
     }
     evaluations += values_.size();
 
-    // By how much each new node differs from the interpolant of the coarser rule, in absolute value, so that neither
-    // nodes nor lines cancel: a function that jumps at random cannot look smooth.
+    // Absolute difference between each new node and the interpolant of the coarser rule. Neither nodes nor lines
+    // cancel, so a function with random jumps cannot look smooth.
     double e1 = 0, e2 = 0, worst = -1, integral = 0;
     const std::array<int, 3> stride{1, n, n * n};
     for (int axis = 0; axis < dim_; ++axis) {
@@ -134,10 +134,10 @@ class Integrator {
     r.value = integral * volume;
     e1 *= volume;
     e2 *= volume;
-    // Geometric convergence: the next surplus would be about e1 (e1 / e2); ten times that is the bound.
+    // Geometric convergence: the next surplus is about e1 (e1 / e2); the bound is ten times that.
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
     r.error = ratio < 0.1 ? 10 * e1 * ratio : e1;
-    const bool edge = least == 0 && largest > 0; // of the support: never smooth
+    const bool edge = least == 0 && largest > 0; // an edge of the support is never smooth
     r.error = std::max(r.error, least_share(edge, r.rough) * e2) + 4e-16 * largest * volume;
     r.rough = r.rough || edge || ratio > 0.3;
   }
@@ -151,7 +151,7 @@ class Integrator {
     r.box.hi[axis] = other.box.lo[axis] = middle;
     evaluate(r);
     evaluate(other);
-    // A bound that its own halves refute says that theirs are too small as well.
+    // If the halves refute the bound of the whole, their own bounds are too small as well.
     const double change = std::abs(r.value + other.value - claimed);
     if (change > bound) {
       r.error = std::max(r.error, change / 4);
@@ -165,7 +165,7 @@ class Integrator {
     return middle > r.box.lo[axis] && middle < r.box.hi[axis];
   }
 
-  // What is no density somewhere is not looked at more closely.
+  // Refinement stops at an invalid density.
   bool spent(const CubatureGoal& goal) const { return invalid_point || evaluations >= goal.max_evaluations; }
 
   std::size_t evaluations = 0;
@@ -173,7 +173,7 @@ class Integrator {
 
  private:
   static std::size_t ix(int i) { return static_cast<std::size_t>(i); }
-  // Of the surplus of the coarser level, what the error is at least: more where f was seen not to be smooth.
+  // Smallest error as a fraction of the coarser surplus; larger if f is not smooth.
   static double least_share(bool edge, bool rough) {
     if (edge) return 0.25;
     return rough ? 0.1 : 0.002;
@@ -211,7 +211,7 @@ CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vecto
   std::vector<Region> regions;
   regions.reserve(boxes.size());
 
-  // First each box by itself to its own goal, then all together to the goal of the total.
+  // First refines each box to its own goal, then all boxes together to the goal of the total.
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const std::size_t first = regions.size();
     Region whole;
@@ -231,7 +231,8 @@ CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vecto
         result.converged = false;
         break;
       }
-      // Halve every region with more than its share: cheaper than one at a time, since the sums are recomputed.
+      // Halves every region that exceeds its share. This is cheaper than one region at a time, since the sums are
+      // recomputed each time.
       const double share = 0.5 * allowed / static_cast<double>(regions.size() - first);
       bool progress = false;
       for (std::size_t r = first, end = regions.size(); r < end; ++r)

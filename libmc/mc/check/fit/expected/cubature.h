@@ -1,5 +1,5 @@
 #pragma once
-/// Adaptive cubature over boxes, with error bounds that the tests of goodness of fit take into account.
+/// Adaptive cubature over boxes, with error bounds that the goodness-of-fit tests use.
 
 #include <mc/check/fit/expected/partition.h>
 
@@ -11,37 +11,38 @@
 
 namespace mc {
 
+/// Result of integrate_boxes.
 struct CubatureResult {
   struct Integral {
     double value = 0, error = 0;
   };
-  std::vector<Integral> boxes; ///< one per box asked for
-  Integral total;              ///< errors added up, so a bound also when they all point the same way
+  std::vector<Integral> boxes; ///< one per box, in the order of the boxes
+  Integral total;              ///< sum of the errors: a bound even if all errors have the same sign
   std::size_t evaluations = 0;
-  bool converged = true; ///< every box and the total met their goals within the budget
-  /// The first point where f was negative or not finite; nothing is refined after it.
+  bool converged = true; ///< every box and the total reached their goals within the budget
+  /// The first point where f is negative or not finite; refinement stops there.
   std::optional<std::array<double, 3>> invalid_point;
 };
 
+/// Required accuracy and budget.
 struct CubatureGoal {
-  double total_error = 1e-8;                     ///< absolute, for the sum over all boxes
-  std::function<double(double value)> box_error; ///< absolute, for one box of this value; empty: total_error
+  double total_error = 1e-8;                     ///< absolute error of the sum over all boxes
+  std::function<double(double value)> box_error; ///< absolute error of a box of this value; empty: total_error
   std::size_t max_evaluations = 4'000'000;
 };
 
-/// Integrals of a non-negative f over each of the boxes of the unit cube of dimension 1, 2 or 3.
-///   rule  : tensor Clenshaw-Curtis of 9 points per axis (5 in three dimensions where f is not smooth); boxes are
-///           halved across the axis that disagrees most between nested rules. The rule samples the faces of the box, so
-///           a discontinuity cannot hide between the outermost nodes and the face.
-///   error : the hierarchical surpluses of the finest nodes in absolute value, reduced only where two levels of them
-///           show geometric convergence. No rule that only evaluates f can be rigorous: a lobe that all nodes miss is
-///           not seen, so cut the boxes where mass is known to be (check_subject does, by its pilot). In the tests the
-///           true error is within the bound for smooth, singular, discontinuous and piecewise constant f, and for 300
-///           products of random factors.
-///   Source : [ClenshawCurtis60]; global adaptivity as in [GenzMalik80]
+/// Returns the integrals of a non-negative f over boxes of the unit cube of dimension 1, 2 or 3.
+///   rule   : tensor Clenshaw-Curtis of 9 points per axis; 5 in three dimensions if f is not smooth. Boxes are halved
+///            across the axis with the largest difference between nested rules. The rule samples the faces of the box,
+///            so a discontinuity cannot hide between the outermost nodes and the face.
+///   error  : the sum of the absolute hierarchical surpluses of the finest nodes, reduced only if two levels show
+///            geometric convergence. No rule that only evaluates f can be rigorous: it ignores a lobe that lies between
+///            all nodes. Cut the boxes where mass is expected; check_subject uses its pilot for this. Tests check the
+///            bound for smooth, singular, discontinuous and piecewise constant f, and for random products.
+///   Source : [ClenshawCurtis60]; global adaptivity as in [GenzMalik80].
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal = {});
-/// The same of an f that is evaluated at many points at once. It may move them.
+/// A function that is evaluated at many points at once. It may move the points.
 using BatchFunction = std::function<void(std::span<std::array<double, 3>> v, std::span<double> values)>;
 CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal = {});

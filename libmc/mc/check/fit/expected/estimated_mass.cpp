@@ -57,7 +57,7 @@ Subject::Coordinates mirrored(const Subject::Coordinates& v, const UnitBox& box,
 
 namespace {
 
-// Cuts an axis of a box at the breaks inside, and evenly between them until there are `least` intervals.
+// Cuts an axis of a box at the breaks inside, and evenly between them into at least `least` intervals.
 void cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size_t least, std::vector<double>& ends) {
   ends.assign(1, lo);
   const auto cut_to = [&](double end, std::size_t parts) {
@@ -110,7 +110,7 @@ BoxMaxima add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pc
 }
 
 void LinearFit::add(const Subject::Coordinates& v, double density, double part) {
-  const double size = 4 * part; // of the box
+  const double size = 4 * part; // volume of the box
   const Difference point{size * v[0], size * v[1], size * v[2], size * density};
   half_ = !half_;
   if (half_) return differences_.push_back(point);
@@ -121,7 +121,7 @@ void LinearFit::add(const Subject::Coordinates& v, double density, double part) 
 }
 
 double LinearFit::largest_residual() {
-  // Gauss and Seidel's iteration, which needs no rank.
+  // Gauss-Seidel iteration, which also converges for a singular matrix.
   std::array<double, 3> slope{};
   for (int sweep = 0; sweep < 16; ++sweep)
     for (std::size_t i = 0; i < dim_; ++i) {

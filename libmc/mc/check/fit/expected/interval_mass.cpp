@@ -11,12 +11,12 @@ namespace mc {
 namespace {
 
 constexpr std::size_t points_of_box = 4, most_near = 1024, most_pieces = 2048;
-constexpr double over_samples = 4, over_seen = 4;                    // densities that say that something was missed
-constexpr int most_halvings = 64;                                    // one after the other
+constexpr double over_samples = 4, over_seen = 4;                    // densities that indicate missed mass
+constexpr int most_halvings = 64;                                    // number of successive halvings
 constexpr std::array<double, 3> boxes_per_interval{512, 1024, 2048}; // in one, two and three dimensions
 
 struct NearPoint {
-  Subject::Coordinates v; // moved into the layer
+  Subject::Coordinates v; // clamped to the layer
   double density;
 };
 using NearPoints = std::span<NearPoint>;
@@ -26,8 +26,8 @@ struct Piece {
   NearPoints points;
 };
 
-// The near points. What those beside the layer claim is what it would hold of them, as the samples thin out or crowd
-// towards it.
+// Returns the near points. The densities of points beside the layer are scaled by the ratio of the sample densities
+// inside and around the layer.
 std::vector<NearPoint> near_points(const Pilot& pilot, const IntervalQuery& query) {
   std::vector<NearPoint> points;
   double lo = query.lo, hi = query.hi;
@@ -47,7 +47,8 @@ std::vector<NearPoint> near_points(const Pilot& pilot, const IntervalQuery& quer
   return points;
 }
 
-// Cuts the layer, of the axes that rounding leaves along the one on which a box is widest in ranks of the pilot.
+// Cuts the layer. Each cut uses the axis along which the box is widest in ranks of the pilot, among the axes that
+// rounding allows.
 struct Cutter {
   const Subject& subject;
   const Pilot& pilot;
@@ -92,7 +93,7 @@ struct Cutter {
     return 0.5 * (std::max_element(points.begin(), upper, less)->v[axis] + upper->v[axis]);
   }
 
-  // Whether a point claims far more for the box than the points in it stand for.
+  // Whether the density at a point claims far more mass for the box than the points in it represent.
   bool is_hidden(const UnitBox& box, NearPoints points) const {
     double claimed = 0;
     for (const NearPoint& p : points) claimed = std::max(claimed, p.density);

@@ -14,8 +14,8 @@
 namespace mc {
 namespace {
 
-// Where a box is cut along an axis when the pilot fills only [lo, hi] of it: in steps that grow by a factor of four, so
-// that a lobe far narrower than the box cannot slip between the nodes.
+// Returns the cuts of a box along an axis on which the pilot fills only [lo, hi]. The steps grow by a factor of four,
+// so that a lobe much narrower than the box cannot hide between the nodes.
 std::vector<double> cuts_beside(double lo, double hi, const UnitBox& box, std::size_t axis) {
   std::vector<double> cuts;
   const double size = hi - lo;
@@ -37,7 +37,7 @@ std::vector<double> cuts_beside(double lo, double hi, const UnitBox& box, std::s
   return cuts;
 }
 
-// Boxes cut along an axis, at the ascending cuts that lie inside each.
+// Cuts boxes along an axis, at the ascending cuts inside each box.
 std::vector<UnitBox> cut_boxes(const std::vector<UnitBox>& boxes, std::size_t axis, const std::vector<double>& cuts) {
   std::vector<UnitBox> finer;
   for (UnitBox box : boxes) {
@@ -51,7 +51,7 @@ std::vector<UnitBox> cut_boxes(const std::vector<UnitBox>& boxes, std::size_t ax
   return finer;
 }
 
-// The smallest box around the pilot's points in each aligned run of 2^level cells.
+// Returns the smallest box around the pilot's points in each aligned run of 2^level cells.
 std::vector<UnitBox> extents(const PilotCells& cells, const Pilot& pilot, int level) {
   std::vector<UnitBox> extent(static_cast<std::size_t>(cells.partition.size() >> level),
                               UnitBox{{2, 2, 2}, {-1, -1, -1}});
@@ -69,7 +69,7 @@ std::vector<UnitBox> extents(const PilotCells& cells, const Pilot& pilot, int le
 
 CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const PilotCells& cells, double n,
                                  std::size_t max_evaluations) {
-  // Few boxes: the cubature itself halves those where it has to.
+  // Few boxes: the cubature halves them as needed.
   const int depth = std::min(cells.partition.depth(), 6);
   const std::vector<UnitBox> extent = extents(cells, pilot, cells.partition.depth() - depth);
   std::vector<UnitBox> pieces;
@@ -97,7 +97,7 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   const double n = samples.draws;
   double outcomes = 0;
   for (const double p : s.atoms) outcomes += p;
-  // What exceeds the caps of the reference is estimated by the samples themselves.
+  // The samples themselves estimate the mass above the caps of the reference.
   const double clipped = (samples.points - samples.sum) / n;
   const double clipped_variance = (samples.points - 2 * samples.sum + samples.squares) / (n * n);
   const double sampled = (samples.squares - sqr(samples.sum) / n) / (n * n);
@@ -110,15 +110,15 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
     mass.value = outcomes;
     return mass;
   }
-  // Cubature that missed a jump or a lobe is off by more than it says. It may be off by `conceded` standard deviations
-  // of an estimate, and is only believed within `agreed` of them: a right density fails where the estimate is off by
-  // the difference, 3.5, and the cubature wrong besides. A jump that no pair of random points shows moves the estimate
-  // by a pair at most, seldom by half of one. What lies where the samples are not only the points see; a lobe that they
-  // miss the samples see.
+  // Cubature that missed a jump or a lobe has a larger error than its bound. Its value is accepted within `agreed`
+  // standard deviations of an estimate, and the mass may then be wrong by `conceded` of them. A correct density thus
+  // fails only if the estimate is off by the difference of 3.5 and the cubature is wrong as well. A jump that no pair
+  // of random points shows moves the estimate by at most one pair, rarely by half a pair. The points detect mass where
+  // no samples are; the samples detect a lobe that the points miss.
   constexpr double conceded = 5, agreed = 1.5;
   const double by_points = std::sqrt(uncapped.conservative_variance());
   const double by_samples = std::sqrt(reference.conservative_variance() + std::max(clipped_variance, 0.0));
-  const double rounding = std::max(s.mass_tolerance, 1e-12); // of sums of many terms
+  const double rounding = std::max(s.mass_tolerance, 1e-12); // rounding of sums of many terms
   const double total = cubature.total.value + outcomes, bound = cubature.total.error + rounding;
   mass.by_cubature = !cubature.invalid_point && cubature.total.error <= 1 / std::sqrt(n) &&
                      std::abs(total - outcomes - uncapped.value) <= bound + agreed * by_points + uncapped.jump / 2 &&
@@ -129,8 +129,8 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
     return mass;
   }
   mass.error = cubature.total.error + conceded * by_points + std::max(uncapped.jump, reference.jump);
-  // A lobe that no point met adds mass and takes none off. It fits into one box, below its cap, or no sample met it:
-  // then it holds at most 4.6 of them, with probability .99.
+  // A lobe that no point hits adds mass and removes none. Either it fits into one box, below its cap, or no sample hit
+  // it. In the latter case it contains at most 4.6 samples with probability .99.
   if (total < 1)
     mass.error = std::max(mass.error, cubature.total.error + conceded * by_samples + reference.jump) +
                  reference.largest + 4.6 / samples.total_points;
@@ -152,7 +152,7 @@ Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
   if (c.verdict == Verdict::pass) return c;
   c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}, should be {}1", mass.value, mass.error,
                          s.may_fail ? "at most " : "");
-  // Samples that are wrong where the density is high say nothing of what it integrates to.
+  // Wrong samples where the density is high do not imply a wrong integral.
   if (mass.by_cubature || c.verdict != Verdict::fail || !(mass.from_points_error <= 0.03) ||
       !(std::abs(mass.from_points - 1) <= 4 * mass.from_points_error))
     return c;

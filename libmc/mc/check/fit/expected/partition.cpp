@@ -19,16 +19,16 @@ double shortest_binary_fraction(double a, double b) {
   return b;
 }
 
-// Splits nodes; points are those of the pilot in a node.
+// Splits nodes; `points` are the pilot points in a node.
 struct Partition::Builder {
   Partition& partition;
   const MaySplit& may_split;
   using Points = std::span<Coordinates>;
 
-  // The place for a split of this axis; none when the pilot cannot be divided there.
+  // Returns the split of an axis; no value if it cannot divide the pilot.
   static std::optional<double> quantile(Points points, const UnitBox& box, std::size_t axis) {
     if (points.size() < 2) return {};
-    // A thousand of the points place the quantiles well enough.
+    // A thousand points locate the quantiles accurately enough.
     const std::size_t every = std::max<std::size_t>(points.size() / 1024, 1);
     std::vector<double> values;
     for (std::size_t i = 0; i < points.size(); i += every) values.push_back(points[i][axis]);
@@ -41,14 +41,14 @@ struct Partition::Builder {
     std::nth_element(at + k_lo + 1, at + k_hi, values.end());
     const double hi = at[k_hi];
     if (lo < hi) return shortest_binary_fraction(lo, hi);
-    // A tenth of the pilot on one value: cut the atom off, below it or just above.
+    // A tenth of the pilot has one value: cuts the atom off, below it or just above.
     if (std::any_of(points.begin(), points.end(), [&](const Coordinates& v) { return v[axis] < lo; })) return lo;
     const double above = std::nextafter(hi, 2.0);
     if (above < box.hi[axis]) return above;
     return {};
   }
 
-  // Axes take turns, but for those along which the box cannot be cut.
+  // Axes alternate, except axes along which the box cannot be cut.
   Split place(const UnitBox& box, Points points, int level) const {
     const auto dim = static_cast<std::uint32_t>(partition.dim_), first = static_cast<std::uint32_t>(level) % dim;
     bool refused = false;

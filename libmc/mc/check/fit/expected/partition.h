@@ -8,33 +8,34 @@
 
 namespace mc {
 
-/// An axis-parallel box of the unit cube, half open: lo <= v < hi (closed where hi = 1).
+/// An axis-parallel box of the unit cube, half open: lo <= v < hi (closed for hi = 1).
 struct UnitBox {
   std::array<double, 3> lo{0, 0, 0}, hi{1, 1, 1};
 };
 
-/// A complete kd-tree over the unit cube whose 2^depth cells hold about equal shares of a pilot sample, so that a lobe
-/// of any sharpness gets as many cells as a cosine. Axes alternate from level to level. Each split is the shortest
-/// binary fraction between the pilot's 45 % and 55 % quantiles: the edges of tables, supports and branches mostly lie
-/// on such places, and then no cell straddles them.
-///   Cells are numbered in tree order: the nodes of level k are the aligned runs of 2^(depth - k) cells.
+/// A complete kd-tree over the unit cube. Its 2^depth cells contain about equal shares of a pilot sample, so a lobe of
+/// any sharpness gets as fine a resolution as a cosine. Axes alternate between levels. Each split is the shortest
+/// binary fraction between the pilot's 45 % and 55 % quantiles. The edges of tables, supports and branches are often
+/// such fractions, and no cell then straddles them. Cells are numbered in tree order: the nodes of level k are the
+/// aligned runs of 2^(depth - k) cells.
 class Partition {
  public:
   using Coordinates = std::array<double, 3>;
 
-  /// Whether a box may be cut at a place on an axis, where `beside` is a point of the pilot in it.
+  /// Returns whether a box may be cut at a place on an axis; `beside` is a pilot point in the box.
   using MaySplit = std::function<bool(const UnitBox& box, std::size_t axis, double place, const Coordinates& beside)>;
 
-  /// The pilot must be independent of the samples that are counted later. A box that may not be cut along any axis is
-  /// all in the lower of its halves; the upper one is empty and begins where it ends. may_split : any place if empty
+  /// Builds the tree. The pilot must be independent of the samples that are counted later. If a box may not be cut
+  /// along any axis, its lower half is the whole box and its upper half is empty.
+  ///   may_split : allows every place if empty.
   Partition(std::vector<Coordinates> pilot, int dim, int depth, const MaySplit& may_split = {});
 
   int size() const { return 1 << depth_; }
   int depth() const { return depth_; }
   UnitBox box(int cell) const { return box(cell, depth_); }
-  /// The box of a run of cells: run i of the 2^depth aligned ones.
+  /// Returns the box of a run of cells: run i of 2^depth aligned runs.
   UnitBox box(int run, int depth) const;
-  /// The cells of many points at once, which is faster: no descent waits for another.
+  /// Returns the cells of many points. Faster than single calls, because the descents do not wait for each other.
   std::vector<std::uint32_t> find_cells(const std::vector<Coordinates>& points) const;
   int cell(const Coordinates& v) const {
     int node = 1;
@@ -45,15 +46,15 @@ class Partition {
     return node - size();
   }
 
-  /// Where an inner node is cut: node i of 1 .. size() - 1 in heap order, root 1, children 2 i and 2 i + 1; the cells
-  /// follow as size() + cell.
+  /// The cut of an inner node. Nodes 1 .. size() - 1 are in heap order: the root is 1, the children of i are 2 i and 2
+  /// i + 1. The cells follow as size() + cell.
   struct Split {
-    double position; ///< `no_split` where all of the box is in the lower half
+    double position; ///< `no_split` if the lower half is the whole box
     std::uint32_t axis;
   };
   static constexpr double no_split = 2;
   const Split& split(int node) const { return splits_[static_cast<std::size_t>(node)]; }
-  /// The two parts of a box that is split so.
+  /// Returns the two halves of a box.
   static std::array<UnitBox, 2> halves(const UnitBox& box, const Split& split);
 
  private:
@@ -63,7 +64,7 @@ class Partition {
   std::vector<Split> splits_; ///< heap order, root at 1
 };
 
-/// The binary fraction with the fewest digits in (a, b], 0 <= a < b <= 1.
+/// Returns the binary fraction with the fewest digits in (a, b], for 0 <= a < b <= 1.
 double shortest_binary_fraction(double a, double b);
 
 } // namespace mc

@@ -11,7 +11,7 @@
 namespace mc {
 namespace {
 
-constexpr std::size_t points_of_stratum = 16; // of the pilot, at most
+constexpr std::size_t points_of_stratum = 16; // largest number of pilot points
 constexpr std::size_t most_strata = 1 << 18;
 constexpr double cap_over_pilot = 16, cap_over_seen = 4, lobe_over_pilot = 4;
 
@@ -28,7 +28,7 @@ std::vector<double> PilotCells::rounding_shares(const Subject& s, const Pilot& p
   constexpr double steps = 2;
   struct Faces {
     UnitBox box;
-    Subject::Coordinates near{}; // how near to them rounding carries a point
+    Subject::Coordinates near{}; // distance from the faces that rounding bridges
   };
   std::vector<std::optional<Faces>> faces(static_cast<std::size_t>(partition.size()));
   std::vector<double> shares(faces.size(), 0.0);
@@ -51,7 +51,7 @@ std::vector<double> PilotCells::rounding_shares(const Subject& s, const Pilot& p
   return shares;
 }
 
-// Splits cells into strata; points are indices into the pilot.
+// Splits cells into strata.
 struct StratifiedReference::Builder {
   const Subject& subject;
   const Pilot& pilot;
@@ -62,8 +62,8 @@ struct StratifiedReference::Builder {
     double density;
   };
   using Points = std::span<Point>;
-  std::vector<Point> all;        ///< points of the pilot, by cells
-  std::vector<std::size_t> ends; ///< of the cells among them
+  std::vector<Point> all;        ///< pilot points, sorted by cell
+  std::vector<std::size_t> ends; ///< ends of the cells in `all`
 
   Builder(const Subject& s, const Pilot& p, const PilotCells& cells, StratifiedReference& r, std::uint64_t seed)
       : subject(s), pilot(p), reference(r), random(seed), all(p.points.size()),
@@ -71,13 +71,13 @@ struct StratifiedReference::Builder {
     for (const std::uint32_t c : cells.cell_of_point) ++ends[c + 1];
     for (std::size_t c = 1; c < ends.size(); ++c) ends[c] += ends[c - 1];
     for (std::size_t i = all.size(); i-- > 0;) all[--ends[cells.cell_of_point[i] + 1]] = {p.points[i], p.densities[i]};
-    // Each end has come down to where its cell begins.
+    // Each end has decreased to the begin of its cell.
     ends.erase(ends.begin());
     ends.push_back(all.size());
   }
   Points of_cell(std::size_t cell) { return Points(all).subspan(ends[cell], ends[cell + 1] - ends[cell]); }
 
-  // Halfway through the points, at the shortest binary fraction.
+  // Returns the shortest binary fraction near the median of the points.
   std::optional<double> middle(Points points, const UnitBox& box, std::size_t axis) const {
     const auto n = static_cast<std::ptrdiff_t>(points.size());
     const auto upper = points.begin() + n / 2;
@@ -89,7 +89,8 @@ struct StratifiedReference::Builder {
     return may_split(subject, box, axis, position, upper->v) ? std::optional(position) : std::nullopt;
   }
 
-  // The point of the pilot whose density says that the box should have held far more of them.
+  // Returns the pilot point with the largest density if the box should contain far more points according to this
+  // density; else null.
   const Point* hidden_lobe(Points points, const UnitBox& box) const {
     if (points.empty()) return nullptr;
     const auto lower = [](const Point& a, const Point& b) { return a.density < b.density; };
@@ -98,7 +99,7 @@ struct StratifiedReference::Builder {
     return claimed > lobe_over_pilot * static_cast<double>(points.size() + 1) ? &top : nullptr;
   }
 
-  // The axis of the box along which a lobe is narrowest: where the density falls most beside its point.
+  // Returns the axis of the box along which a lobe is narrowest, where the density beside its point falls most.
   std::size_t narrowest(const Point& lobe, const UnitBox& box, std::size_t first) {
     const auto dim = static_cast<std::size_t>(subject.dim);
     std::size_t axis = first;
@@ -119,7 +120,7 @@ struct StratifiedReference::Builder {
     return axis;
   }
 
-  // Whether the box is so narrow that samples of a coarser scalar meet it by chance.
+  // Whether the box is so narrow that samples of a coarse scalar fall into it by chance.
   bool is_rounded(const UnitBox& box, const Subject::Coordinates& inside) const {
     bool rounded = false;
     for (std::size_t d = 0; d < static_cast<std::size_t>(subject.dim); ++d)
@@ -176,7 +177,7 @@ StratifiedReference::StratifiedReference(const Subject& s, const Pilot& pilot, c
     : dim_(s.dim), cells_(static_cast<std::size_t>(cells.partition.size())), nodes_(1) {
   Builder builder(s, pilot, cells, *this, seed);
   add_cells(cells.partition, 1, 0, UnitBox{}, builder);
-  // About four bins to a stratum.
+  // About four bins per stratum.
   const double bits = std::log2(4 * static_cast<double>(strata_.size())) / dim_;
   guide_size_ = std::size_t{1} << static_cast<int>(bits);
   Bin hi{1, 1, 1};
@@ -187,7 +188,7 @@ StratifiedReference::StratifiedReference(const Subject& s, const Pilot& pilot, c
   fill_guide(0, {}, hi);
 }
 
-// The nodes below a split of the cells, in the order of the cells.
+// Adds the nodes below a split of the cells, in the order of the cells.
 void StratifiedReference::add_cells(const Partition& cells, int split, std::size_t node, const UnitBox& box,
                                     Builder& builder) {
   if (split >= cells.size()) {
@@ -205,9 +206,9 @@ void StratifiedReference::add_cells(const Partition& cells, int split, std::size
   add_cells(cells, 2 * split + 1, children + 1, right, builder);
 }
 
-// Of the bins from lo to hi, which the node holds.
+// Sets the guide for the bins from lo to hi, which the node contains.
 void StratifiedReference::fill_guide(std::size_t node, Bin lo, Bin hi) {
-  Bin left = hi, right = lo; // what the children hold; between them lie the bins that the split cuts
+  Bin left = hi, right = lo; // bins inside the children; the split cuts the bins between them
   const Node& n = nodes_[node];
   if (n.axis >= 0) {
     const auto axis = static_cast<std::size_t>(n.axis);
@@ -234,7 +235,7 @@ std::vector<const StratifiedReference::Stratum*>
 StratifiedReference::find_strata(std::span<const Subject::Coordinates> points) const {
   std::vector<std::uint32_t> at(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) at[i] = guide_[bin(points[i])];
-  // Those that have not arrived at a stratum come first; no branch depends on where they go.
+  // Points that have not reached a stratum come first; no branch depends on their direction.
   std::vector<std::uint32_t> under_way(points.size());
   std::iota(under_way.begin(), under_way.end(), 0u);
   for (std::size_t left = points.size(), now = left; now > 0; now = left) {

@@ -1,6 +1,6 @@
 #pragma once
-/// What the claimed density says of cells, found by evaluating it at random points: an estimate with an error that is
-/// known whatever the density does between them.
+/// Expected counts of cells from evaluations of the claimed density at random points. The error estimate is valid for
+/// any density, smooth or not.
 
 #include <mc/check/fit/expected/estimated_mass.h>
 #include <mc/check/fit/expected/partition.h>
@@ -14,39 +14,41 @@
 
 namespace mc {
 
-/// The cells of a pilot, and in which each of its points lies.
+/// The cells of a pilot, and the cell of each pilot point.
 struct PilotCells {
   Partition partition;
   std::vector<std::uint32_t> cell_of_point;
-  /// Cells are as wide as rounding leaves them.
+  /// Builds the cells; rounding limits their smallest width.
   PilotCells(const Subject& subject, const Pilot& pilot, int depth);
-  /// The share of all samples that rounding by a step may carry into each cell, or out of it: what lies within two
-  /// steps of its faces, halved. 0 but for lobes of few steps.
+  /// Returns the fraction of all samples that rounding may move into or out of each cell. This is half of the samples
+  /// within two rounding steps of its faces. 0 except for lobes of few steps.
   std::vector<double> rounding_shares(const Subject& subject, const Pilot& pilot) const;
 };
 
-/// The cube in strata, each with a cap on the density.
-///   strata : the cells of a partition, cut on until each holds few points of the pilot, and around pilot points whose
-///            density says that the pilot belongs into a smaller box: a lobe of any sharpness is looked at where it is
-///   cap    : 16 times the density of the pilot in a stratum, or 4 times the smaller of two densities seen there. What
-///            exceeds the cap could hide between the points, so it is left out on both sides: the density counts as
-///            min(pdf, cap), and a sample as min(1, cap / pdf), which has the same mean. No point and no sample then
-///            weighs much, and both sums have errors that their own values show
-///   Source : truncated importance weights [Ionides08]; stratified sampling, with two mirrored pairs each [Cochran77]
+/// A decomposition of the cube into strata, each with a cap on the density.
+///   strata : the cells of a partition, cut further until each contains few pilot points. If the density at a pilot
+///            point requires more points than the box contains, the box is cut around it. Lobes of any sharpness thus
+///            get small strata.
+///   cap    : 16 times the density of the pilot in a stratum, or 4 times the smaller of two sampled densities. Mass
+///            above the cap could hide between the points, so both sides omit it: the density counts as min(pdf, cap),
+///            a sample as min(1, cap / pdf), which has the same mean. No point and no sample then has a large weight,
+///            and the error of each sum can be estimated from its terms.
+///   Source : truncated importance weights [Ionides08]; stratified sampling, with two mirrored pairs each [Cochran77].
 class StratifiedReference {
  public:
   StratifiedReference(const Subject& subject, const Pilot& pilot, const PilotCells& cells, std::uint64_t seed);
 
-  /// The stratum of a point.
+  /// A stratum of the cube.
   struct Stratum {
     std::uint32_t cell = 0;
     std::uint32_t index = 0;
     double cap = 0;
-    double density = 0; ///< mean density of the pilot in the stratum; 0 where rounding places the samples
-    double volume = 0;  ///< the largest that one random point stands for
-    /// What a sample counts where the claimed density is `claimed`: 1 nearly always.
+    /// Mean density of the pilot in the stratum; 0 if rounding determines the positions of the samples.
+    double density = 0;
+    double volume = 0; ///< largest volume that one random point represents
+    /// Returns the weight of a sample for a claimed density; nearly always 1.
     double weight(double claimed) const { return claimed > cap ? cap / claimed : 1.0; }
-    /// What a random point would say to PointVisitor where the claimed density is `claimed`.
+    /// Returns the share that a random point would have in EvaluatedPoint, for a claimed density.
     double share(double claimed) const { return std::min(claimed, cap) * volume; }
   };
   const Stratum& find_stratum(const Subject::Coordinates& v) const {
@@ -54,30 +56,31 @@ class StratifiedReference {
     while (node->axis >= 0) node = &nodes_[node->index + (v[static_cast<std::size_t>(node->axis)] >= node->position)];
     return strata_[node->index];
   }
-  /// Those of many points at once, which is faster: no descent waits for another.
+  /// Returns the strata of many points. Faster than single calls, because the descents do not wait for each other.
   std::vector<const Stratum*> find_strata(std::span<const Subject::Coordinates> points) const;
 
   struct Goal {
-    double samples = 1e6;             ///< that will be counted: the variance need not be far below that of their counts
-    std::size_t min_points = 1 << 15; ///< points
+    /// Number of samples to be counted; the variance need not be far below the variance of their counts.
+    double samples = 1e6;
+    std::size_t min_points = 1 << 15; ///< number of points
     std::size_t max_points = 1 << 22;
   };
-  /// A point with its share of the integral: the shares add up to the integral times the passes.
+  /// A point with its share of the integral. The shares add up to the integral times the number of passes.
   struct EvaluatedPoint {
     Subject::Coordinates v;
     const Stratum* stratum;
     double density, share;
   };
-  /// Called with all points, many at a time.
+  /// Receives all points, in batches.
   using PointVisitor = std::function<void(std::span<const EvaluatedPoint> points)>;
 
   struct CellMasses {
     std::vector<EstimatedMass> cells; ///< integrals of min(pdf, cap)
     EstimatedMass total;
-    EstimatedMass uncapped; ///< the integral of pdf itself, whatever exceeds the caps
+    EstimatedMass uncapped; ///< the integral of pdf itself, including mass above the caps
     std::size_t evaluations = 0, passes = 0;
-    std::optional<Subject::Coordinates> invalid_point; ///< first point where the density was negative or not finite
-    void take_means(); ///< over the passes, whose sums the cells hold; adds up the total
+    std::optional<Subject::Coordinates> invalid_point; ///< first point where the density is negative or not finite
+    void take_means(); ///< divides the sums in the cells by the number of passes, and computes the total
   };
   CellMasses integrate(const Subject& subject, const Goal& goal, std::uint64_t seed, const PointVisitor& visit = {});
 
@@ -87,7 +90,7 @@ class StratifiedReference {
   struct Node {
     double position = 0;
     int axis = -1;           ///< -1: a stratum
-    std::uint32_t index = 0; ///< of the lower child (the upper follows), or of the stratum
+    std::uint32_t index = 0; ///< index of the lower child (the upper child follows), or of the stratum
   };
   struct Builder;
   struct Integration;
@@ -106,9 +109,9 @@ class StratifiedReference {
   int dim_;
   std::size_t cells_;
   std::vector<Node> nodes_;          ///< the root first
-  std::vector<std::uint32_t> guide_; ///< by bins of a grid: the smallest node that holds all of the bin
-  std::size_t guide_size_ = 1;       ///< bins along an axis
-  std::vector<UnitBox> boxes_;       ///< of the strata
+  std::vector<std::uint32_t> guide_; ///< for each bin of a grid, the smallest node that contains the whole bin
+  std::size_t guide_size_ = 1;       ///< number of bins along an axis
+  std::vector<UnitBox> boxes_;       ///< boxes of the strata
   std::vector<Stratum> strata_;
 };
 

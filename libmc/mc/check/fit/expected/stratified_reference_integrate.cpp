@@ -10,10 +10,10 @@
 namespace mc {
 namespace {
 
-constexpr double samples_to_a_point = 8; // random point
+constexpr double samples_to_a_point = 8; // number of samples per random point
 
-// What the points of one cell do not show those of the cells beside it do: each takes the largest jump of an aligned
-// run of them.
+// Points of one cell may miss a jump that points of neighbouring cells show. Each cell gets the largest jump of an
+// aligned run of cells.
 void share_jumps(std::vector<EstimatedMass>& cells) {
   constexpr std::size_t beside = 64;
   for (std::size_t lo = 0; lo < cells.size(); lo += beside) {
@@ -26,24 +26,24 @@ void share_jumps(std::vector<EstimatedMass>& cells) {
 
 } // namespace
 
-// One integral, in passes over the strata.
+// One integral, computed in passes over the strata.
 struct StratifiedReference::Integration {
   const Subject& subject;
   StratifiedReference& reference;
   const PointVisitor& visit;
   Pcg random;
   std::array<std::vector<double>, 3> breaks{};
-  std::size_t parts = 1; ///< of each stratum, along an axis
+  std::size_t parts = 1; ///< number of parts of each stratum along an axis
   CellMasses result{};
   LinearFit fit{static_cast<std::size_t>(subject.dim)};
   AntitheticPoints paired{};
-  std::vector<std::uint32_t> strata{}; ///< of the parts
+  std::vector<std::uint32_t> strata{}; ///< strata of the parts
   std::vector<double> densities{};
   std::vector<EvaluatedPoint> evaluated{};
-  std::uint32_t fitted = 0; ///< cell whose points the fit holds
+  std::uint32_t fitted = 0; ///< cell of the points in the fit
 
-  static constexpr std::size_t together = 2048;       // points are evaluated at once
-  static constexpr std::uint32_t fitted_together = 4; // cells
+  static constexpr std::size_t together = 2048;       // number of points evaluated at once
+  static constexpr std::uint32_t fitted_together = 4; // number of cells
 
   void pass() {
     for (std::uint32_t i = 0; i < reference.strata_.size(); ++i) {
@@ -56,11 +56,11 @@ struct StratifiedReference::Integration {
     ++result.passes;
   }
 
-  // How many passes like the first bring both variances of all cells together down to a tenth of that of their counts:
-  // what the points show falls with the passes, what they may have missed with their cube.
+  // Returns the number of passes that reduces both variances, summed over all cells, to a tenth of the variance of the
+  // counts. The sampled variance decreases with the number of passes, the hidden variance with its cube.
   double passes_wanted(double samples, double most) {
     share_jumps(result.cells);
-    double shown = 0, jumps = 0; // over the variances of the counts
+    double shown = 0, jumps = 0; // relative to the variances of the counts
     for (const EstimatedMass& m : result.cells) {
       if (!(m.value > 0)) continue;
       shown += samples * m.variance / m.value / static_cast<double>(result.cells.size());
@@ -124,11 +124,11 @@ StratifiedReference::CellMasses StratifiedReference::integrate(const Subject& s,
   for (const std::vector<double>& axis : s.breaks) boxes *= static_cast<double>(axis.size() + 1);
   if (4 * boxes <= most) integration.breaks = s.breaks;
 
-  // The mass of few samples' density is still wanted to a thousandth.
+  // Even for few samples, the mass of the density is needed to a thousandth.
   const double samples = std::max(goal.samples, 1e5);
   integration.pass();
-  // All passes count alike, and only the sum over all cells decides how many there are, so that the choice biases
-  // nothing.
+  // All passes have the same weight, and only the sum over all cells determines their number, so that the choice causes
+  // no bias.
   const double evaluations = static_cast<double>(result.evaluations), room = std::max(1.0, most / evaluations);
   const double passes =
       std::clamp(integration.passes_wanted(samples, room), std::max(1.0, std::round(points / evaluations)), room);

@@ -18,7 +18,7 @@ double count_between(const std::vector<double>& sorted, double lo, double hi) {
                              std::lower_bound(sorted.begin(), sorted.end(), lo));
 }
 
-// Where samples share one value, up to rounding: the place on an axis where most of them do, and both its ends.
+// Adds the atoms of an axis: the most frequent value up to rounding, and the values at both ends.
 void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& v, std::size_t axis,
                std::vector<AxisInterval>& atoms) {
   const auto beyond = [&](double a) { return a + 64 * s.epsilon * std::abs(a) + 1e-300; };
@@ -26,7 +26,7 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
   std::size_t most = 1, position = 0, pairs = 0;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double end = beyond(v[i]);
-    if (v[i + 1] > end) continue; // nearly always
+    if (v[i + 1] > end) continue; // true for nearly all samples
     ++pairs;
     for (; i + most < n && v[i + most] <= end; ++most) position = i;
   }
@@ -48,7 +48,7 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
     atom.count = count_between(v, atom.box.lo[axis], atom.box.hi[axis]);
     if (atom.box.hi[axis] > atom.box.lo[axis]) atoms.push_back(atom);
   };
-  std::size_t low = 0, high = 0; // how many
+  std::size_t low = 0, high = 0; // numbers of samples equal to the smallest and to the largest
   while (low < n && v[low] <= beyond(v[0])) ++low;
   while (high < n && v[n - 1] <= beyond(v[n - 1 - high])) ++high;
   if (most >= 3) add(position, most, false);
@@ -56,17 +56,17 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
   if (high >= 2) add(n - high, high, true);
 }
 
-// Samples that are rounded to steps are now and then equal, which makes no atom. How coarse the steps are, the pairs of
-// equal samples elsewhere tell; one more than were seen are assumed. This is how often so many of n samples would then
-// be equal at some place, or at one of the two ends. Steps coarser than those of 31 random bits, or of the scalar, are
-// not assumed: such a sampler is at fault.
+// Samples that are rounded to steps are sometimes equal without an atom. The number of equal pairs elsewhere, plus one,
+// estimates the width of the steps. Returns the expected number of places where rounding makes atom.equal of n samples
+// equal: anywhere on the axis, or at one of the two ends. The steps are at most as coarse as 31 random bits or the
+// scalar; coarser steps are a fault.
 double chance_of_steps(const Subject& s, const AxisInterval& atom, double n) {
   const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, n * std::max(0x1p-31, s.epsilon));
   const double at_a_place = (atom.equal - 1) * std::log(equal_to_one);
   return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - std::lgamma(atom.equal + 1)));
 }
 
-// Gaps are numbered as the sample below them; gap -1 lies before the first sample.
+// A gap has the index of the sample below it; gap -1 is before the first sample.
 struct Gaps {
   std::ptrdiff_t first, last;
 };
@@ -81,13 +81,13 @@ Gaps gaps_at(GapPosition position, std::ptrdiff_t samples) {
   return {0, -1};
 }
 
-// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
-// than 16 times their mean, so that a right sampler rarely pays for the test.
+// Finds the widest gap at a position on an axis, measured in spacings of the 64 samples around it. Exponential spacings
+// rarely exceed 16 times their mean, so a correct distribution rarely needs the test.
 bool find_gap(const Subject& s, const std::vector<double>& v, GapPosition position, AxisInterval& interval) {
   constexpr std::ptrdiff_t around = 32;
   const auto n = static_cast<std::ptrdiff_t>(v.size());
   if (n < 4 * around) return false;
-  // The samples with the ends of the axis about them.
+  // Sample i, with the ends of the axis before the first and after the last.
   const auto at = [&](std::ptrdiff_t i) {
     if (i < 0) return 0.0;
     return i < n ? v[static_cast<std::size_t>(i)] : 1.0;
@@ -97,7 +97,7 @@ bool find_gap(const Subject& s, const std::vector<double>& v, GapPosition positi
   std::ptrdiff_t below = -2;
   for (std::ptrdiff_t i = gaps.first; i <= gaps.last; ++i) {
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(i - around, 0), last = std::min(i + 1 + around, n - 1);
-    // Rounding may carry samples just out of the chart, where nothing is claimed.
+    // Rounding may move samples slightly outside the chart, where the density is not defined.
     if (at(i) < 0 || at(i + 1) > 1) continue;
     const double gap = at(i + 1) - at(i), inside = i >= 0 && i + 1 < n ? gap : 0;
     const double spacings = static_cast<double>(last - first - (inside > 0 ? 1 : 0));
@@ -107,13 +107,13 @@ bool find_gap(const Subject& s, const std::vector<double>& v, GapPosition positi
     below = i;
   }
   if (below < -1) return false;
-  const double margin = (at(below + 1) - at(below)) / 64; // the samples at its edges are not of the gap
+  const double margin = (at(below + 1) - at(below)) / 64; // excludes the samples at the edges of the gap
   interval.box.lo[interval.axis] = below < 0 ? 0.0 : at(below) + margin;
   interval.box.hi[interval.axis] = below + 1 >= n ? 1.0 : at(below + 1) - margin;
   return true;
 }
 
-// Whether the points beside a gap are rounded to steps as wide as it is.
+// Whether the points beside a gap are rounded to steps of the width of the gap.
 bool is_rounding(const Subject& s, const Pilot& pilot, const AxisInterval& gap) {
   const double lo = gap.box.lo[gap.axis], hi = gap.box.hi[gap.axis];
   double step = 0;
@@ -122,7 +122,8 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const AxisInterval& gap) 
   return hi - lo <= min_resolved_steps * step;
 }
 
-// The interval with the points of the pilot in it and beside it, and the mass that it would hold if it were like these.
+// Returns the interval with the pilot points inside and beside it, and with its mass for a density constant across
+// these points.
 IntervalQuery query_around(const Pilot& pilot, const AxisInterval& interval) {
   IntervalQuery query{interval.axis,
                       interval.box.lo[interval.axis],
@@ -182,11 +183,11 @@ Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::
   for (const AxisInterval& interval : intervals) {
     if (interval.kind != kind) continue;
     const double slack = 4 * std::sqrt(interval.mass.worst_case_variance()), share = interval.count / n;
-    // Rounding moves samples by whole steps: twice as many as expected are no atom yet.
+    // Rounding moves samples by whole steps: twice the expected number is not yet an atom.
     const double claimed = atom ? 2 * (interval.mass.value + slack) : (interval.mass.value - slack) / mass;
     if (atom ? share <= claimed : share >= claimed) continue;
-    // The interval lies where one sample is, or between two: that much is given. That sample is one of all, or one of two.
-    // Gaps at the ends and inside share the chance evenly.
+    // The interval is chosen at one sample, or between two: these samples are given. The choice is among n samples, or
+    // among the two ends. Gaps at the ends and inside share the probability evenly.
     const double family = (interval.at_end ? 2 : n) * s.dim * (atom ? 1 : 2);
     const double by_density = sidak(binomial_tail(atom ? interval.count - 1 : 0, n, std::min(claimed, 1.0)), family);
     const double p = std::min(by_density + (atom ? s.dim * chance_of_steps(s, interval, n) : 0.0), 1.0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Thin intervals of the unit cube that hold more or fewer samples than any right sampler puts there.
+/// Tests for thin intervals of the unit cube that contain too many or too few samples.
 
 #include <mc/check/fit/expected/interval_mass.h>
 #include <mc/check/fit/pilot.h>
@@ -10,34 +10,36 @@
 
 namespace mc {
 
-/// An interval across one axis, between two values of its coordinate.
-///   atom : a few units in the last place wide, where the most samples are: a clamp or a fallback value puts an atom
-///          there that no cell is small enough to see
-///   gap  : empty, and wide against the spacing of the samples beside it: a wrong constant or a clamp leaves a hole
-///          there
+/// An interval between two values of one coordinate.
+///   atom : a few units in the last place wide, at the most frequent value. A clamp or a fallback value creates an atom
+///          that is much smaller than a cell.
+///   gap  : an empty interval that is wide compared with the spacing of the samples beside it. A wrong constant or a
+///          clamp leaves such a hole.
 struct AxisInterval {
   enum class Kind : std::uint8_t { atom, gap } kind = Kind::atom;
   std::size_t axis = 0;
   UnitBox box;
-  double count = 0;           ///< samples in it
-  EstimatedMass mass;         ///< claimed by the density
-  bool at_end = false;        ///< at the least or the greatest sample, of a gap: beyond it
-  double equal = 0;           ///< of an atom: samples that are the same up to rounding
-  double pairs_elsewhere = 0; ///< of an atom: neighbours at other places that are the same
+  double count = 0;           ///< number of samples in the interval
+  EstimatedMass mass;         ///< mass of the claimed density
+  bool at_end = false;        ///< at the smallest or the largest sample; a gap lies beyond it
+  double equal = 0;           ///< atoms only: number of samples that are equal up to rounding
+  double pairs_elsewhere = 0; ///< atoms only: number of equal neighbours elsewhere on the axis
 };
 
-/// Per axis the place where most samples share one value up to rounding, if three or more do; the least and the
-/// greatest value, if two or more share it; and the gaps that are widest in spacings of the samples beside them: the
-/// widest inside, and those at both ends. `sorted` holds the coordinates of the samples by axis.
+/// Returns the candidate intervals of each axis. Atoms: the most frequent value up to rounding, if at least three
+/// samples share it, and the smallest and the largest value, if at least two samples share it. Gaps: the widest gap
+/// inside and the gaps at both ends, measured in spacings of the samples beside them. `sorted` contains the sorted
+/// coordinates of the samples for each axis.
 std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot,
                                               const std::array<std::vector<double>, 3>& sorted);
 
-/// The intervals of one kind against their mass, on the side that the kind suspects: too many at an atom, none in a gap. A
-/// interval was chosen among as many as there are samples, which the p-value takes into account; four standard deviations
-/// of the mass are conceded. An atom must also be more than chance makes of steps as coarse as the pairs elsewhere say:
-/// a sampler of 31 random bits, as coarse as is let pass, repeats itself, but hardly ever in its greatest value. Spends
-/// alpha_share(atoms) or alpha_share(gaps).
-///   n, mass : samples drawn; what the density integrates to, 1 where samples may fail
+/// Tests the intervals of one kind against their mass, one-sided: too many samples in an atom, none in a gap. An
+/// interval is one of n candidates, which the p-value takes into account; four standard deviations of the mass are
+/// conceded. An atom must also be unlikely for samples rounded to coarse steps. The width of the steps follows from the
+/// number of equal pairs elsewhere, with 31 random bits as the coarsest accepted steps: such samples repeat values, but
+/// rarely the largest value. Spends alpha_share(atoms) or alpha_share(gaps).
+///   n    : number of samples drawn.
+///   mass : integral of the density; 1 if samples may fail.
 Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals,
                           double n, double mass, double alpha);
 

@@ -18,24 +18,23 @@ namespace {
 
 constexpr double least_expected = 8;
 
-// How much larger errors must be to be found where they do not keep to the cells: their patches, or their region, hold
-// the share of four cells and lie across the borders of cells. Cells that lie at random over patches w cells wide show
-// 1 - 1 / (3 w) of the square of a random sign, along each axis. The margins are for patches that are turned and longer
-// than wide: `bench_mc_check_error_rates promise 118 100001 1e6` and `959 1 1e5` find all errors of the stated size, half of
-// them as small as that.
+// Factor for errors that do not follow the cells. Their patches, or their region, have the probability of four cells
+// and cross the borders of cells. Cells at random offsets over patches w cells wide retain 1 - 1 / (3 w) of the square
+// of a random sign along each axis. The margins below cover patches that are rotated or longer than wide;
+// `bench_mc_check_error_rates promise` tests them.
 double across_cells(int dim) {
   const double axes = std::max(dim, 1), w = std::pow(4.0, 1 / axes);
   return std::pow(1 - 1 / (3 * w), -0.5 * axes);
 }
 constexpr double margin_of_signs = 1.25, margin_of_region = 1.04;
 
-/// Cells that expect at least 8 samples each, given their sum.
+/// Cells with at least 8 expected samples each, given the sum of the samples.
 struct PooledCells {
   std::vector<Cell> cells;
   double n = 0;
   std::vector<double> p{0}, variance{0}, observed{0}, squares{0}; // prefix sums
 
-  // Of the sum of the weights over the cells [lo, hi), for each unit of its expectation.
+  // Returns the variance of the sum of the weights in the cells [lo, hi), divided by its expectation.
   double dispersion(std::size_t lo, std::size_t hi) const {
     const double count = observed[hi] - observed[lo];
     return count > 0 ? (squares[hi] - squares[lo]) / count : 1.0;
@@ -71,7 +70,7 @@ PooledCells pool(const std::vector<Cell>& cells) {
   }
   if (!empty && pooled.cells.empty()) pooled.cells.push_back(next);
   else if (!empty) join(pooled.cells.back(), next);
-  // Conditional on the whole, so that a wrong normalisation is one fault (of mass), not hundreds.
+  // Conditional on the total: a wrong normalisation is a single fault (mass), instead of hundreds.
   for (Cell& c : pooled.cells) {
     if (total > 0) {
       c.p /= total;
@@ -96,7 +95,8 @@ Check chi_square_check(std::string name, double statistic, double dof, double sh
 
 // The chi-square of two levels of the tree.
 struct TreeLevels {
-  double statistic = 0, dof = 0, noise = 0; ///< noise: how much the probabilities add to the variances of the counts
+  /// Noise: variance of the probabilities, relative to the variance of the counts.
+  double statistic = 0, dof = 0, noise = 0;
 };
 
 void add_split(const PooledCells& cells, std::size_t lo, std::size_t mid, std::size_t hi, TreeLevels& levels) {
@@ -111,7 +111,7 @@ void add_split(const PooledCells& cells, std::size_t lo, std::size_t mid, std::s
   levels.noise += estimated / counted;
 }
 
-// From the coarsest.
+// Returns pairs of levels, the coarsest first.
 std::vector<TreeLevels> tree_levels(const PooledCells& cells) {
   struct Node {
     std::size_t lo, hi, level;
@@ -122,7 +122,7 @@ std::vector<TreeLevels> tree_levels(const PooledCells& cells) {
     const Node node = stack.back();
     stack.pop_back();
     if (node.hi - node.lo < 2) continue;
-    // Aligned halves: the largest power of two below the size, so that tree nodes stay whole when atoms follow them.
+    // Aligned halves: the largest power of two below the size keeps tree nodes whole when atoms follow them.
     std::size_t half = 1;
     while (2 * half < node.hi - node.lo) half *= 2;
     const std::size_t mid = node.lo + half;
@@ -147,20 +147,20 @@ void chi_squares(const PooledCells& cells, int dim, double share, double alpha, 
                                              fmt::format("chi-square is {:.4g}, {:.0f} expected", g.statistic, g.dof)));
     coarse = fine;
   }
-  // A random sign per cell puts the share dof / cells of its noncentrality n e^2 into the finest group.
+  // A random sign per cell puts the fraction dof / cells of its noncentrality n e^2 into the finest group.
   const double dof = groups.back().dof, lambda = chi_square_noncentrality(dof, sidak_level(alpha, each), 0.99);
   const double noise = 1 + groups.back().noise / dof;
   result.detectable = margin_of_signs * across_cells(dim) *
                       std::sqrt(lambda * noise * static_cast<double>(cells.cells.size()) / dof / cells.n);
 }
 
-// Means over [a, b] of ln r, ln(1 - r).
+// Returns the mean of ln r over [a, b].
 double mean_log(double a, double b) {
   const auto f = [](double r) { return r > 0 ? r * std::log(r) - r : 0.0; };
   return b - a > 1e-9 ? (f(b) - f(a)) / (b - a) : std::log(std::max(0.5 * (a + b), 1e-9));
 }
 
-// Nothing where there are too few cells, or too few samples for normality.
+// Adds no check if there are too few cells, or too few samples for a normal approximation.
 void tails(const PooledCells& cells, const std::vector<Axis>& named, std::size_t axis, double share, double alpha,
            CellTests& result) {
   std::vector<std::array<double, 2>> scores;
@@ -176,7 +176,7 @@ void tails(const PooledCells& cells, const std::vector<Axis>& named, std::size_t
     extreme = std::max({extreme, -s[0], -s[1]});
     scores.push_back(s);
   }
-  // Their covariance under the claimed probabilities.
+  // Covariance of the scores under the claimed probabilities.
   const double n = cells.n, dispersion = cells.dispersion();
   std::array<double, 3> v{};
   for (std::size_t k = 0; k < scores.size(); ++k) {
@@ -242,14 +242,14 @@ void ks(const PooledCells& cells, const std::vector<Axis>& named, std::size_t ax
   result.checks.push_back(std::move(c));
 }
 
-// A run of cells that is far off. A count whose variance is s times smaller than its expectation is compared as s times
-// the count with s times the expectation, which keeps the skewness of small counts; s = 1 for plain counts.
+// A run of cells with a large deviation. A count with a variance s times smaller than its expectation is compared as s
+// * count with s * expectation, which keeps the skewness of small counts; s = 1 for plain counts.
 struct Run {
   double z = 0, p = 0, count = 0, s = 1;
   std::size_t lo = 0, hi = 0;
 };
 
-// Single cells and aligned runs of 4, 16, ... of them; of the runs only the 64 farthest off.
+// Returns single cells and aligned runs of 4, 16, ... cells; at most the 64 with the largest |z|.
 std::vector<Run> farthest_runs(const PooledCells& cells, double& family) {
   std::vector<Run> runs;
   const std::size_t size = cells.cells.size();
@@ -262,7 +262,7 @@ std::vector<Run> farthest_runs(const PooledCells& cells, double& family) {
       Run run{count > 0 ? HUGE_VAL : 0.0, q, count, 1, lo, hi};
       if (q > 0) {
         const double plain = cells.n * q * (1 - q);
-        // Given the sum of all cells, what is not known of the others is not known of the run.
+        // Given the sum of all cells, the uncertainty of the other cells adds to the uncertainty of the run.
         const double of_run = cells.variance[hi] - cells.variance[lo], of_others = cells.variance.back() - of_run;
         const double variance =
             plain * cells.dispersion(lo, hi) + sqr(cells.n) * (of_run * sqr(1 - q) + std::max(of_others, 0.0) * sqr(q));

@@ -10,7 +10,7 @@
 namespace mc {
 namespace {
 
-// Of a level, for its z squared to be chi-square far out in the tail, too.
+// Required information of a level: its squared z must be chi-square far out in the tail.
 constexpr double least_information = 30;
 
 } // namespace
@@ -33,7 +33,7 @@ Check DensityRatioTest::test(double share, double alpha) const {
     pooled.back().join(rest);
   }
   for (const WeightedCounts& l : pooled) c.statistic += sqr(compare(l, scale).z());
-  // The sum is given, which takes one degree of freedom off.
+  // The given sum takes one degree of freedom.
   const double dof = static_cast<double>(pooled.size() - 1);
   if (!(dof > 0)) return c;
   c.p = chi_square_tail(c.statistic, dof);

@@ -13,7 +13,7 @@ namespace mc {
 namespace {
 
 constexpr std::size_t max_bins = 2048, max_ranges = 64, max_integrated = 4;
-constexpr int halvings = 6; // of the bins at both ends
+constexpr int halvings = 6; // number of halvings of the bins at both ends
 
 } // namespace
 
@@ -82,7 +82,7 @@ bool MarginalBins::is_rounded(const Subject& s, const Pilot& pilot, const BinRan
     const double lo = i > 0 ? axis.ends[i - 1] : 0.0, hi = i < axis.ends.size() ? axis.ends[i] : 1.0;
     return axis.bins[i].observed / (hi - lo);
   };
-  // Beside a bin of few samples may stand a bright cell, of which a step holds more than all of the bin.
+  // A bin of few samples may border on a peak, and one rounding step then moves more samples than the bin contains.
   double ends = 2 * range.compared.mean / (range.hi - range.lo);
   if (range.first > 0) ends = std::max(ends, samples_per_length(range.first - 1) + samples_per_length(range.first));
   if (range.last < axis.bins.size())
@@ -111,7 +111,7 @@ std::vector<MarginalBins::BinRange> MarginalBins::farthest_ranges(double& family
         range.compared = compare(range.counts, scale);
         range.expected = range.compared.expected;
         family += 1;
-        // The random points may hide what is wrong with the thin ends.
+        // The noise of the random points may hide errors in the thin bins at the ends.
         if (length <= 8 && (lo == 0 || lo + length == size)) ends.push_back(range);
         else if (std::abs(range.compared.z()) >= 2) ranges.push_back(range);
       }
@@ -123,8 +123,8 @@ std::vector<MarginalBins::BinRange> MarginalBins::farthest_ranges(double& family
   return ranges;
 }
 
-// The p-value of a run's count against an integral of its own, whose error is conceded; against the random points where
-// not all its samples count 1, and where these know better.
+// Computes the p-value of a run's count against an integral of its own, with four standard deviations conceded. Uses
+// the random points if samples have weights other than 1, or if the points are more accurate.
 void MarginalBins::BinRange::compute_p(const Subject& s, const Pilot& pilot, IntervalQuery query, double n, double mass,
                                        Effort effort) {
   p = compared.p();
@@ -134,7 +134,7 @@ void MarginalBins::BinRange::compute_p(const Subject& s, const Pilot& pilot, Int
   const EstimatedMass own = interval_mass(s, pilot, query, 1, effort);
   const double integrated = n * own.value / mass, error = n * std::sqrt(own.worst_case_variance()) / mass;
   const double error_of_points = std::sqrt(compared.point_variance * std::max(compared.observed, compared.expected));
-  // An integral that met nothing, or that the random points contradict, missed where the mass lies.
+  // An integral that is 0, or that contradicts the random points, missed the mass of the run.
   const double off = std::abs(integrated - compared.expected);
   if (!(own.value > 0 && error <= error_of_points && off <= 4 * error + 3 * error_of_points)) return;
   expected = integrated;

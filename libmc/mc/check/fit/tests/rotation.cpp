@@ -8,14 +8,15 @@
 namespace mc {
 namespace {
 
-// Whether a turn explains the counts: what it takes off their chi-square is more than chance does, and what remains is
-// no more than chance, or little beside what it took.
+// Whether a rotation explains the counts. It must reduce the chi-square by more than chance, and the rest must be
+// within chance or small compared with the reduction.
 bool explains(double before, double after, double dof, double least_gain) {
   const double gain = before - after;
   return gain >= least_gain && after - dof <= std::max(3 * std::sqrt(2 * dof), 0.25 * gain);
 }
 
-// Integral of the density over the face of a box on the axis, by Gauss's rule in the other axes.
+// Returns the integral of the density over the cross-section of a box at `at` on the axis, by Gauss's rule in the other
+// axes.
 double face(const Subject& s, const UnitBox& box, std::size_t axis, double at) {
   static constexpr double node = 0.3872983346207417; // sqrt(3/5) / 2
   double sum = 0, area = 1;
@@ -66,12 +67,12 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
     score += rate * off / expected;
     information += rate * rate / expected;
   }
-  const double turn_of_score = score / information; // NaN when no turn changes the density
+  const double turn_of_score = score / information; // NaN if no rotation changes the density
   if (std::isfinite(information) && std::abs(turn_of_score) < 0.01 &&
       explains(before, before - score * turn_of_score, dof, 25))
     return turn_of_score;
 
-  // Runs of cells that 16 thousand points of the pilot fill.
+  // Runs of cells that contain enough of 16 thousand pilot points.
   const std::size_t stride = std::max<std::size_t>(1, pilot.size() / 16384);
   std::size_t run = 1;
   while (run < size && size / run > pilot.size() / stride / 64) run *= 2;
@@ -101,7 +102,8 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
   for (int k = 1; k < 72; ++k) try_turn(k / 72.0);
   for (const double step : {1 / 216.0, 1 / 648.0, 1 / 1944.0})
     for (const double t : {turn - step, turn + step}) try_turn(t);
-  // Two chi-squares of the same points differ by 2 sqrt(dof) by chance, and the best of many turns by three times that.
+  // The chi-squares of two rotations of the same points differ by about 2 sqrt(dof) by chance; the best of many
+  // rotations gains about three times as much.
   const double groups = static_cast<double>(p.size());
   if (!explains(unturned, best, groups, 25 + 10 * std::sqrt(groups))) return {};
   return turn > 0.5 ? turn - 1 : turn;

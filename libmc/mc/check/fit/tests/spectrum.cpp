@@ -15,7 +15,7 @@
 namespace mc {
 namespace {
 
-// Periods along an axis: the upper half of the coefficients are negative ones.
+// Returns the number of periods along an axis; the upper half of the coefficients have negative frequencies.
 int periods(std::size_t k, std::size_t size) {
   return k <= size / 2 ? static_cast<int>(k) : static_cast<int>(k) - static_cast<int>(size);
 }
@@ -34,7 +34,7 @@ struct Spectrum {
   Wave largest;
   std::vector<Band> bands;
 
-  // The Fourier coefficient of k periods along the axes.
+  // Adds the Fourier coefficient with k periods along the axes.
   void add(const std::array<int, 3>& k, double power) {
     const int nyquist = static_cast<int>(size / 2);
     int most = 0;
@@ -45,12 +45,12 @@ struct Spectrum {
     }
     if (most == 0) return;
     if (power > largest.exponent) {
-      // Coefficients that are their own conjugates are real: chi-square of one degree of freedom.
+      // Coefficients that equal their own conjugate are real: chi-square with one degree of freedom.
       const double exponent = real ? -std::log(std::max(std::erfc(std::sqrt(power / 2)), 1e-300)) : power;
       if (exponent > largest.exponent) largest = {exponent, k};
     }
     if (most == nyquist) return;
-    // At 0 periods of the last axis the conjugates are among the coefficients.
+    // For 0 periods along the last axis, the coefficients include their conjugates.
     const double each = k[dim - 1] == 0 ? 0.5 : 1.0;
     Band& band = bands[static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(most)) - 1)];
     band.sum += each * power;
@@ -58,10 +58,11 @@ struct Spectrum {
   }
 };
 
-// The half of the coefficients of a grid that is not conjugate to the other half, by periods of the last axis.
+// Returns the half of the coefficients of a grid that determines the other half by conjugation, by periods of the last
+// axis.
 std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::size_t dim, std::size_t size) {
   std::vector<std::complex<float>> x = fourier_transform(grid, size);
-  // Rows along the last axis followed each other; along the others they lie side by side, in blocks.
+  // Rows along the last axis are contiguous. Rows along the other axes are interleaved in blocks.
   std::size_t stride = size / 2 + 1;
   for (std::size_t d = 1; d < dim; ++d) {
     for (std::size_t first = 0; first < x.size(); first += stride * size)
@@ -71,7 +72,7 @@ std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::
   return x;
 }
 
-// Of bins on an axis, that memory allows.
+// Largest number of bins on an axis as a power of two, limited by memory.
 int most_bits(int dim) {
   if (dim == 1) return 16;
   return dim == 2 ? 10 : 6;
@@ -81,7 +82,7 @@ int most_bits(int dim) {
 
 SpectrumTest::SpectrumTest(int dim, double samples, double step) : dim_(dim) {
   int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most_bits(dim));
-  // A lattice of steps is a wave whose amplitude in bins of width w is step / (pi w): a third of what samples show.
+  // A lattice of steps is a wave of amplitude step / (pi w) in bins of width w: a third of the noise of the samples.
   while (bits > 2 && std::ldexp(step, bits) * std::sqrt(samples) > 1) --bits;
   size_ = std::size_t{1} << bits;
   observed_.resize(std::size_t{1} << (bits * dim));
@@ -101,7 +102,8 @@ std::vector<Check> SpectrumTest::test(const WeightedCounts& all, double share, d
     collisions += sqr(static_cast<double>(expected_[i]));
   }
   const double variance = all.observed_squares + sqr(scale) * std::max(all.expected_squares, all.shares / scale);
-  // Correlated neighbours: the variance of a sum of squares is so many times that of independent ones.
+  // Neighbouring coefficients are correlated: factor of the variance of a sum of squares, compared with independent
+  // ones.
   const double correlated = std::max(1.0, collisions / sqr(expected) * bins);
   const auto dim = static_cast<std::size_t>(dim_);
   const std::vector<std::complex<float>> x = transform(off, dim, size_);
@@ -167,7 +169,7 @@ double mean_step(const Subject& s, const Pilot& pilot, double most) {
 
 namespace {
 
-// One number of each of several rows: they are transformed side by side.
+// One number of each of several rows, which are transformed together.
 template <std::size_t L> struct Lanes { std::array<float, L> re, im; };
 
 template <std::size_t L> void butterfly(Lanes<L>& a, Lanes<L>& b, std::complex<float> w) {
@@ -185,7 +187,7 @@ void transform_lanes(std::complex<float>* x, std::size_t n, std::size_t stride, 
                      const std::vector<std::complex<float>>& roots, std::vector<Lanes<L>>& row) {
   const int bits = std::countr_zero(n);
   row.resize(n);
-  // Gathered first: columns of a grid lie far apart.
+  // Gathers the numbers first: columns of a grid are far apart in memory.
   for (std::size_t i = 0; i < n; ++i) {
     std::size_t reversed = 0;
     for (int b = 0; b < bits; ++b) reversed |= (i >> b & 1) << (bits - 1 - b);
@@ -221,7 +223,7 @@ void fourier_transform(std::complex<float>* x, std::size_t n, std::size_t stride
 
 std::vector<std::complex<float>> fourier_transform(const std::vector<float>& x, std::size_t n) {
   const std::size_t rows = x.size() / n, half = n / 2 + 1;
-  // Two rows at a time, as the real and the imaginary part of one.
+  // Transforms two rows at a time, as the real and the imaginary part of one.
   std::vector<std::complex<float>> pairs((rows + 1) / 2 * n), result(rows * half);
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t i = 0; i < n; ++i) {

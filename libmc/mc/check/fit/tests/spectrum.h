@@ -1,6 +1,6 @@
 #pragma once
-/// Structure finer than any cell: waves, lattices and grids of any offset and direction in what samples and density
-/// leave of each other.
+/// Fourier analysis of observed minus expected counts. It detects structure finer than the cells: waves, lattices and
+/// grids of any offset and direction.
 
 #include <mc/check/fit/pilot.h>
 #include <mc/check/fit/weighted_counts.h>
@@ -13,28 +13,28 @@
 
 namespace mc {
 
-/// Counts samples and what is expected of them on a fine grid of the unit cube: 2^16 bins on an axis, 1024^2 on two,
-/// 64^3 on three, fewer for few samples and for coordinates that are rounded: a lattice of steps as wide as a bin is no
-/// fault.
-///   step : mean width of the steps to which coordinates are rounded
+/// Counts observed and expected samples on a fine grid of the unit cube: 2^16 bins in one dimension, 1024^2 in two,
+/// 64^3 in three. Few samples or coarsely rounded coordinates reduce the number of bins, since a lattice of rounding
+/// steps is no fault.
+///   step : mean width of the rounding steps of the coordinates.
 class SpectrumTest {
  public:
   SpectrumTest(int dim, double samples, double step);
 
   void add_sample(const Subject::Coordinates& v, double weight) { observed_[bin(v)] += static_cast<float>(weight); }
-  /// A random point that stands for a share of the expected samples.
+  /// Adds a random point that represents a share of the expected samples.
   void add_expected(const Subject::Coordinates& v, double share) { expected_[bin(v)] += static_cast<float>(share); }
-  /// Instead of random points: the same everywhere.
+  /// Expects the same count in all bins, instead of random points.
   void expect_uniform() { std::fill(expected_.begin(), expected_.end(), 1.0f); }
 
-  /// Two Checks that spend half of `share` each, both given the sum of the samples.
-  ///   waves : the largest of the Fourier coefficients of observed - expected, each exponential in its square
-  ///   bands : their mean square between K/2 and K periods, K = 2, 4, ..., a chi-square that needs no aligned cells;
-  ///           where the density is uneven, neighbouring coefficients are correlated and there are fewer degrees of
-  ///           freedom
-  /// None where the steps leave fewer than 8 bins on an axis.
-  ///   Source : [Rayleigh1880], [Bartlett63]
-  ///   all : sums over all samples and random points
+  /// Returns two Checks that spend half of `share` each, both given the sum of the samples; none if the steps leave
+  /// fewer than 8 bins on an axis.
+  ///   waves  : the largest squared Fourier coefficient of observed - expected. Each is exponentially distributed.
+  ///   bands  : the mean squared coefficient between K/2 and K periods, K = 2, 4, ..., a chi-square that needs no
+  ///            aligned cells. An uneven density correlates neighbouring coefficients, which reduces the degrees of
+  ///            freedom.
+  ///   all    : sums over all samples and random points.
+  ///   Source : [Rayleigh1880], [Bartlett63].
   std::vector<Check> test(const WeightedCounts& all, double share, double alpha, const char* coordinates) const;
 
  private:
@@ -49,22 +49,22 @@ class SpectrumTest {
   }
 
   int dim_;
-  std::size_t size_; ///< bins of an axis
+  std::size_t size_; ///< number of bins on an axis
   std::vector<float> observed_, expected_;
 };
 
-/// The mean over the pilot's points of the steps to which coordinates are rounded, on the axis where it is largest; a
-/// point counts at most `most`.
+/// Returns the mean width of the rounding steps at the pilot's points, on the axis where it is largest. Each width
+/// counts at most `most`.
 double mean_step(const Subject& subject, const Pilot& pilot, double most);
 
-/// The first n/2 + 1 coefficients of the discrete Fourier transforms of rows of n = 2^m real numbers, which follow each
-/// other.
+/// Returns the first n/2 + 1 coefficients of the discrete Fourier transform of each row of n = 2^m real numbers. The
+/// rows are contiguous.
 std::vector<std::complex<float>> fourier_transform(const std::vector<float>& x, std::size_t n);
 
-/// In place, the discrete Fourier transforms of `count` rows of n = 2^m numbers: sum of x_j exp(-2 pi i j k / n). The
-/// numbers of a row lie `stride` apart, the rows `distance`.
-///   error : a few float epsilons of the root mean square, times log n
-///   Source : [CooleyTukey65]
+/// Replaces `count` rows of n = 2^m numbers by their discrete Fourier transforms, sum of x_j exp(-2 pi i j k / n). The
+/// numbers of a row are `stride` apart, the rows `distance`.
+///   error  : a few float epsilons of the root mean square, times log n.
+///   Source : [CooleyTukey65].
 void fourier_transform(std::complex<float>* x, std::size_t n, std::size_t stride, std::size_t count = 1,
                        std::size_t distance = 0);
 

@@ -23,7 +23,7 @@ std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, 
   const std::string counts = fmt::format("; {} of {} samples", count, inverted.size());
   c.detail = "invert fails or is not finite" + counts;
   if (!s.describe_draw) return c;
-  // Only draws that gave a point were inverted.
+  // Only draws that are points were inverted.
   std::vector<Subject::Draw> draws;
   s.draw(seed, n, draws);
   std::uint64_t index = 0;
@@ -36,7 +36,7 @@ std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, 
 std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
                                      double alpha, double share) {
   const double n = static_cast<double>(points.size()), root = std::sqrt(n);
-  // What the error could add to each statistic, in standard deviations: at most 6 e sqrt(n) for the least of them.
+  // The largest effect of the error on a statistic is 6 e sqrt(n) standard deviations.
   if (root * error > 0.05) return {};
   Check c{"inverted samples are uniform", Verdict::pass, 1.0, share, 0, 0, Fault::inverse, {}};
   double family = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether points are uniform in the unit cube: what inverted samples must be.
+/// Tests of uniform points in the unit cube, for inverted samples.
 
 #include <mc/check/report/report.h>
 #include <mc/check/subject/subject.h>
@@ -10,16 +10,17 @@
 
 namespace mc {
 
-/// Fails where the inverse of a sample is not finite, of those that Subject::inverted gives for n draws of the stream
-/// `seed`; nothing where all are.
+/// Returns a failed Check if the inverse of a sample is not finite; else no value. `inverted` is the result of
+/// Subject::inverted for n draws of the stream `seed`.
 std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, std::size_t n,
                                           const std::vector<Subject::Coordinates>& inverted);
 
-/// Tests points of [0,1)^dim, dim 1 to 3, as one Check that spends `share` of alpha: along each axis
-/// Kolmogorov-Smirnov, mean and mean square, and for each pair of axes their correlation; the smallest p by Sidak over
-/// the tests made.
-///   error : bound on the error of the coordinates, conceded to them; none when that would leave the tests no power
-///   throws : Error when there are no points, or one is not finite
+/// Tests whether points of [0,1)^dim, dim 1 to 3, are uniform. One Check spends `share` of alpha. It combines
+/// Kolmogorov-Smirnov, mean and mean square on each axis with the covariance of each pair of axes, by Sidak's
+/// correction of the smallest p.
+///   error  : bound on the error of the coordinates, conceded to the points. No Check if this leaves the tests without
+///            power.
+///   throws : Error if there are no points, or if one is not finite.
 std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
                                      double alpha, double share);
 
