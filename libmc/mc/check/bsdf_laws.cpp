@@ -6,7 +6,7 @@
 
 namespace mc {
 
-// A law is one file of laws/ and one row here.
+// Each law is one file of laws/bsdf and one row here.
 BsdfLaw bsdf_sign_law, bsdf_support_law, bsdf_reciprocity_law, bsdf_delta_reciprocity_law, bsdf_energy_law;
 constexpr BsdfLaw* laws[] = {bsdf_sign_law, bsdf_support_law, bsdf_reciprocity_law, bsdf_delta_reciprocity_law,
                              bsdf_energy_law};
@@ -24,8 +24,8 @@ DirectionPair pair_of(const BsdfView& view, const AnyBsdf::Direction& wi) {
   return p;
 }
 
-// Looks along directions that the BSDF samples, one for every five samples that the options ask for and at most 20000,
-// and along one uniform direction for every four of them.
+// Evaluates the BSDF at sampled directions and at uniform directions. There is one sampled direction per five requested
+// samples, at most 20000, and one uniform direction per four sampled directions.
 BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
   BsdfView view{bsdf, wo, options, {}, false};
   Pcg random(options.seed, 24);
@@ -47,7 +47,7 @@ BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const Bsdf
 
 Subject bsdf_subject(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options) {
   Subject s = make_subject(bsdf_distribution(bsdf, wo, options));
-  s.resolution = {}; // what rounding does to wi depends on the lobe, not on the place alone
+  s.resolution = {}; // the effect of rounding on wi depends on the lobe, not on the position alone
   return s;
 }
 

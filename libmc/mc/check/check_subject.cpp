@@ -28,21 +28,21 @@ constexpr std::uint64_t most_inverted = 1 << 17;
 
 constexpr std::size_t most_kept = 1 << 22;
 
-// Where the samples will be counted, and how many the density claims there.
+// The cells and bins of the tests, with the expected counts.
 struct Layout {
-  std::optional<PilotCells> pilot_cells; ///< of subjects with axes
+  std::optional<PilotCells> pilot_cells; ///< only for subjects with axes
   std::optional<StratifiedReference> reference;
-  std::vector<UnitBox> boxes; ///< of its cells; the cells beyond them are discrete outcomes
+  std::vector<UnitBox> boxes; ///< boxes of the first cells; the other cells are discrete outcomes
   std::vector<Cell> cells;
   std::optional<MarginalBins> marginal_bins;
   std::optional<SpectrumTest> spectrum;
   DensityRatioTest density_ratio;
-  WeightedCounts all; ///< samples and random points, wherever they lie
+  WeightedCounts all; ///< all samples and random points
   StratifiedReference::CellMasses masses;
   CubatureResult cubature;
 };
 
-// Sums over the samples in a cell: of their weights, and of the squares of those.
+// Sums over the samples in a cell: of their weights and of the squared weights.
 struct WeightSums {
   double sum = 0, squares = 0;
   void add(double weight) {
@@ -51,16 +51,16 @@ struct WeightSums {
   }
 };
 
-// What was counted.
+// Results of counting the samples.
 struct Counts {
   DrawStats stats;
   std::vector<WeightSums> cells;
   SampleWeights weights;
-  std::array<std::vector<double>, 3> coordinates; ///< of the pilot and the first samples, by axis, ascending
-  double kept = 0;                                ///< draws that these come from
+  std::array<std::vector<double>, 3> coordinates; ///< sorted on each axis: the pilot and the first samples
+  double kept = 0;                                ///< number of draws behind the coordinates
 };
 
-// At least 200 samples to a cell, at most 4096 cells.
+// Depth of the tree: at least 200 samples per cell, at most 4096 cells.
 int tree_depth(double samples) { return std::clamp(static_cast<int>(std::log2(std::max(samples, 1.0) / 200)), 0, 12); }
 
 Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const EstimatedMass& mass, std::size_t passes) {
@@ -74,7 +74,8 @@ Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const Est
   return c;
 }
 
-// Counts what points of the reference stand for, each test's in a loop of its own: they share little memory.
+// Adds points of the reference to the expected counts. Each test has a loop of its own, which keeps its memory in the
+// cache.
 void count_expected(std::span<const StratifiedReference::EvaluatedPoint> points, Layout& layout) {
   std::vector<double> weights(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) weights[i] = points[i].stratum->weight(points[i].density);
@@ -122,11 +123,11 @@ Layout lay_out(const Subject& s, const Pilot& pilot, const SubjectOptions& optio
   return layout;
 }
 
-// The integral of the density that samples are held against: failures make up what it lacks to 1.
+// The total to which the claimed probabilities are normalised. Failures supply the rest of 1.
 double claimed_total(const Subject& s, double mass) { return s.may_fail ? 1.0 : std::max(mass, 1e-300); }
 
-// The rate of failures against what the density leaves of 1. The error of its integral is conceded to the sampler;
-// where that would matter the mass itself is inconclusive.
+// Tests the rate of failures against 1 - mass. The error of the integral is conceded; if it is large, the check of the
+// mass is inconclusive.
 Check test_failures(const Subject& s, const DrawStats& t, double mass, double mass_error, double alpha) {
   Check c{"failure rate",
           Verdict::pass,
@@ -147,7 +148,7 @@ Check test_failures(const Subject& s, const DrawStats& t, double mass, double ma
   return c;
 }
 
-// Every test of the counts so far.
+// Runs all tests of the current counts.
 CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<WeightSums>& cells, const DrawStats& stats,
                        double alpha) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -161,7 +162,7 @@ CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<Weigh
   return test_cells(layout.cells, s.dim, alpha, s.axes);
 }
 
-// Counts samples that are points, in the same way.
+// Counts the samples that are points, in the same order as count_expected.
 void count_points(const Subject& s, std::span<const Subject::Coordinates> points, std::span<const double> densities,
                   Layout& layout, Counts& counts) {
   const std::vector<const StratifiedReference::Stratum*> strata = layout.reference->find_strata(points);
@@ -184,7 +185,7 @@ void count_points(const Subject& s, std::span<const Subject::Coordinates> points
       counts.coordinates[d].push_back(points[i][d]);
 }
 
-// Draws and counts; `on_progress` is called with what there is after 1024, 2048, ... draws.
+// Draws and counts the samples. `on_progress` receives the counts after 1024, 2048, ... draws.
 using ProgressCallback = std::function<void(const std::vector<WeightSums>& cells, const DrawStats& stats)>;
 
 Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions& options, Layout& layout,
@@ -236,7 +237,7 @@ void append(std::vector<Check>& all, std::vector<Check> more) {
   for (Check& c : more) all.push_back(std::move(c));
 }
 
-// Samples through the subject's own inverse.
+// Tests the samples after the subject's own inverse.
 std::vector<Check> judge_inverse(const Subject& s, std::uint64_t seed, std::uint64_t samples, double alpha) {
   if (!s.inverted) return {};
   const std::uint64_t n = std::min(samples, most_inverted);
@@ -257,7 +258,7 @@ std::vector<Check> judge_inverse(const Subject& s, std::uint64_t seed, std::uint
   return checks;
 }
 
-// What is thinner or finer than any cell.
+// Tests structure that is thinner or finer than the cells.
 std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layout& layout, const Counts& counts,
                                 double mass, double alpha) {
   const double points = std::max(mass - std::accumulate(s.atoms.begin(), s.atoms.end(), 0.0), 1e-300);
@@ -281,7 +282,7 @@ void prepend_finding(std::vector<Check>& checks, const std::string& finding) {
   prepend([](const Check& c) { return c.p && *c.p < 1e-9; });
 }
 
-// If a rotation about the pole explains the counts, the likely cause of wrong counts is a rotation.
+// If a rotation about the pole explains the counts, reports it as the likely cause.
 void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const Layout& layout, const Pilot& pilot,
                         std::vector<Check>& checks) {
   const auto of_shape = [](const Check& c) {
@@ -337,7 +338,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   report.mass = mass.value;
   report.mass_error = mass.error;
 
-  // The pilot's draws obey the same laws.
+  // The laws of single draws include the pilot.
   append(report.checks, check_draws(s, merge(counts.stats, pilot.stats), options.open_interval));
   append(report.checks, judge_density(s, layout));
   append(report.checks, find_unresolved(s, pilot));
@@ -354,7 +355,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   prepend_finding(tests.checks, describe_worst_region(s, layout.boxes, layout.cells));
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
-  judge_intervals(AxisInterval::Kind::gap); // after the shape, of which a wide one is a part
+  judge_intervals(AxisInterval::Kind::gap); // after the shape tests, which also find wide gaps
   if (s.dim > 0) append(report.checks, judge_detail(s, pilot, layout, counts, mass.value, options.alpha));
   if (s.may_fail) report.checks.push_back(test_failures(s, counts.stats, mass.value, mass.error, options.alpha));
   report.detectable = tests.detectable;
@@ -375,12 +376,12 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
 std::uint64_t samples_to_detect(double error, double alpha, int dim) {
   require(error > 0, "samples_to_detect: error = {} must be > 0", error);
   require(alpha > 0 && alpha < 1, "samples_to_detect: alpha = {} must lie in (0, 1)", alpha);
-  // What test_cells reports for cells of equal shares, as a function of the samples.
+  // Returns the detectable error of test_cells for cells of equal probability, as a function of the number of samples.
   const auto detectable = [&](double n) {
     std::vector<Cell> cells(std::size_t{1} << tree_depth(n));
     for (Cell& c : cells) {
       c.p = 1 / static_cast<double>(cells.size());
-      c.variance = 0.25 * c.p / n; // of a smooth density, as the random points of the reference leave it
+      c.variance = 0.25 * c.p / n; // of a smooth density with random points of the reference
       c.observed = c.squares = n / static_cast<double>(cells.size());
     }
     return test_cells(cells, dim, alpha).detectable;

@@ -6,7 +6,7 @@
 
 namespace mc {
 
-// A law is one file of laws/ and one row here.
+// Each law is one file of laws/ and one row here.
 Law boundary_law, batch_consistency_law, support_law, jacobian_law, precision_law;
 constexpr Law* laws[] = {boundary_law, determinism_law, batch_consistency_law, support_law,
                          inverse_law,  jacobian_law,    precision_law};
@@ -26,7 +26,7 @@ AnyDistribution with_tolerances(AnyDistribution distribution, const LawOptions& 
 
 namespace {
 
-// Where counts are wrong since something is rounded to float, the first of them says so.
+// If rounding to float explains wrong counts, adds this to the first failed test.
 void name_float(const AnyDistribution& distribution, std::uint64_t seed, Report& report) {
   for (Check& c : report.checks) {
     if (c.verdict != Verdict::fail || !c.p) continue;

@@ -38,13 +38,13 @@ std::vector<WorstCell> worst_cells(const Subject& s, const std::vector<UnitBox>&
 
 namespace {
 
-// Cells [lo, hi).
+// The cells [lo, hi) and their counts.
 struct Region {
   std::size_t lo = 0, hi = 0;
   double observed = 0, expected = 0, z = 0;
 };
 
-// Sums over the cells before each.
+// Prefix sums over the cells.
 struct PrefixSums {
   std::vector<double> p{0}, variance{0}, observed{0};
 
@@ -64,7 +64,7 @@ struct PrefixSums {
   }
 };
 
-// The box around the boxes [lo, hi).
+// Returns the smallest box that contains the boxes [lo, hi).
 UnitBox enclosing_box(const std::vector<UnitBox>& boxes, std::size_t lo, std::size_t hi) {
   UnitBox all = boxes[lo];
   for (std::size_t i = lo; i < hi; ++i)
@@ -86,7 +86,7 @@ std::string describe_box(const Subject& s, const UnitBox& box) {
 } // namespace
 
 std::string describe_worst_region(const Subject& s, const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells) {
-  constexpr double least_telling = 4; // more than chance makes of the worst of some thousand regions
+  constexpr double least_telling = 4; // chance rarely exceeds this in the worst of a few thousand regions
   const PrefixSums sums(cells);
   if (!(sums.p.back() > 0)) return {};
   Region worst;

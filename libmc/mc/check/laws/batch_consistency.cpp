@@ -1,4 +1,4 @@
-// Many questions at once get the answers of each alone.
+// Batch consistency law: a batch gives the results of single calls.
 
 #include <mc/check/laws/law.h>
 
@@ -9,12 +9,12 @@ namespace {
 
 using OptionalSample = std::optional<AnyDistribution::Sample>;
 
-constexpr std::size_t points = 257; // no whole number of the vectors that a program may compute in
+constexpr std::size_t points = 257; // not a multiple of any vector width
 
-// A program may compute in float, and vectors round otherwise than single numbers: but not by as much as this.
+// Bound on differences by rounding: a plugin may compute in float, and vector code rounds differently from scalar code.
 constexpr double rounding = 1024 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
-// How far b is off a, relative to the larger, or to `least` where both are smaller. NaN is as good as NaN.
+// Returns the difference of b from a, relative to the larger of the two or to `least`. NaN equals NaN.
 double off(double a, double b, double least) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
   const double relative = std::abs(a - b) / std::max({std::abs(a), std::abs(b), least});

@@ -1,4 +1,4 @@
-// Samples at the ends of the unit cube and beside the sampler's branches.
+// Boundary law: samples at the ends of the unit cube and beside the branches of the distribution.
 
 #include <mc/check/fit/interior_density.h>
 #include <mc/check/laws/find_breaks.h>
@@ -14,18 +14,18 @@ bool has_zero(const AnyDistribution& s, const Uniforms& u) {
   return std::any_of(u.begin(), u.begin() + s.uniforms, [](double x) { return x == 0; });
 }
 
-// The numbers beside a coordinate, in the sampler's scalar.
+// Returns the two neighbours of a coordinate in the distribution's scalar.
 std::array<double, 2> beside(const AnyDistribution& s, double u) {
   if (s.is_float) return {std::nextafter(static_cast<float>(u), 0.0f), std::nextafter(static_cast<float>(u), 1.0f)};
   return {std::nextafter(u, 0.0), std::nextafter(u, 1.0)};
 }
 
-// Tries single u. Judged apart are sets of measure zero: those with a coordinate of exactly 0, those that a density of
-// 0 at one point meets, as |x| does in the middle, and those rounded onto the edge of the domain or of a jump, where a
-// density may be 0 or infinite.
+// Tests single values of u. Faults of measure zero are counted separately. These are u with a coordinate of exactly 0,
+// a density of 0 at one point (such as |x| at the centre), and points rounded onto an edge or a jump where the density
+// may be 0 or infinite.
 class Probe {
  public:
-  // accepted : that the sampler breaks at single u
+  // accepted : faults of measure zero are accepted.
   Probe(const AnyDistribution& s, bool accepted) : distribution_(s), subject_(make_subject(s)), accepted_(accepted) {}
 
   void operator()(const Uniforms& u) {
@@ -43,7 +43,7 @@ class Probe {
     });
   }
 
-  // A fault that only single u show is no wrong density.
+  // Returns the checks. A fault at single u alone does not imply a wrong density.
   std::vector<Check> checks() const {
     Check inner = inner_.check(), zero = zero_.check();
     if (accepted_) return {inner};
@@ -58,7 +58,7 @@ class Probe {
   }
 
  private:
-  // Whether the samples on both sides are right.
+  // Whether the samples at both neighbours are correct.
   bool is_single(const Uniforms& u) const {
     const auto right = [&](const Uniforms& v) {
       return fault_of(to_chart(distribution_, distribution_.sample(v))).empty();
@@ -91,13 +91,13 @@ class Probe {
   WorstError zero_{"single u of measure zero", 0, Fault::measure_zero};
 };
 
-// The places of a coordinate: ends, quarters, middle, with their neighbours.
+// Returns the tested values of a coordinate: ends, quarters and middle, with neighbours.
 std::vector<double> places(const AnyDistribution& s) {
   const double h = s.epsilon() / 2;
   return {0, h, 0.25, 0.5 - h / 2, 0.5, 0.5 + h, 0.75, 1 - 0x1p-24, s.max_u()};
 }
 
-// Every combination of the places.
+// Tests every combination of the values.
 void probe_corners(const AnyDistribution& s, Probe& probe) {
   const std::vector<double> at = places(s);
   std::size_t total = 1;
@@ -113,7 +113,7 @@ void probe_corners(const AnyDistribution& s, Probe& probe) {
   }
 }
 
-// The six nearest numbers about t, and t - h, t, t + h.
+// Tests the five nearest numbers around t, and t - h and t + h.
 template <class S>
 void probe_about(const AnyDistribution& s, const Uniforms& start, std::size_t axis, S t, Probe& probe) {
   using std::nextafter;
@@ -125,7 +125,7 @@ void probe_about(const AnyDistribution& s, const Uniforms& start, std::size_t ax
   }
 }
 
-// The numbers of the point at u; where the sampler fails, of the chart at `start`.
+// Returns the point at u; if sample fails, the point of the chart at `start`.
 PointArray point_at(const AnyDistribution& s, Uniforms u, const Uniforms& start) {
   if (s.open_interval)
     for (double& one : u) one = std::max(one, s.epsilon() / 2);
@@ -133,7 +133,7 @@ PointArray point_at(const AnyDistribution& s, Uniforms u, const Uniforms& start)
   return s.domain.from_unit ? s.domain.from_unit({start[0], start[1], start[2]}).x : PointArray{};
 }
 
-// The numbers of a point of the domain as numbers of S.
+// Converts the coordinates of a point to S.
 template <class S> std::vector<S> numbers_of(const AnyDistribution& s, const PointArray& x) {
   std::vector<S> numbers;
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.point_size); ++i)
@@ -141,7 +141,7 @@ template <class S> std::vector<S> numbers_of(const AnyDistribution& s, const Poi
   return numbers;
 }
 
-// Jumps and kinks of the sampler over S along one axis.
+// Returns jumps and kinks of sample over S along one axis.
 template <class S> std::vector<S> breaks_along(const AnyDistribution& s, const Uniforms& start, std::size_t axis) {
   const std::function<std::vector<S>(const S&)> map = [&](const S& t) {
     Uniforms u = start;
@@ -151,7 +151,7 @@ template <class S> std::vector<S> breaks_along(const AnyDistribution& s, const U
   return find_breaks<S>(map, 256, 4);
 }
 
-// Those of the oracle: rounding hides a kink from its own scalar.
+// Returns jumps and kinks of the oracle: rounding in the distribution's own scalar hides kinks.
 std::vector<Oracle> oracle_breaks_along(const AnyDistribution& s, const Uniforms& start, std::size_t axis) {
   const PointArray centre = s.domain.from_unit({start[0], start[1], start[2]}).x;
   const std::function<std::vector<Oracle>(const Oracle&)> map = [&](const Oracle& t) {

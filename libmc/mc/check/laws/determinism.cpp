@@ -1,4 +1,5 @@
-// The same question gets the same answer, whatever was asked between; other u give other points.
+// Determinism law: repeated calls give equal results, independent of the calls in between, and different u give
+// different points.
 
 #include <mc/check/laws/law.h>
 
@@ -12,7 +13,7 @@ using OptionalUniforms = std::optional<AnyDistribution::Uniforms>;
 
 constexpr int points = 256;
 
-// The same bits; NaN equals itself.
+// Bitwise equality; NaN equals itself.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 template <std::size_t n> bool same(const std::array<double, n>& a, const std::array<double, n>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return same(x, y); });
@@ -30,7 +31,7 @@ std::string describe(const AnyDistribution& s, const OptionalSample& drawn) {
 }
 std::string describe(const AnyDistribution& s, const OptionalUniforms& u) { return u ? format_u(s, *u) : "a failure"; }
 
-// A u with what is said of it: its sample, and of a point what pdf and invert say.
+// A u with its sample, and the pdf and inverse of a point.
 struct Evaluation {
   AnyDistribution::Uniforms u{};
   OptionalSample drawn;
@@ -48,10 +49,10 @@ Evaluation evaluate(const AnyDistribution& s, Pcg& random) {
   return a;
 }
 
-// What the same questions say once more, after `others` samples at other u.
+// Compares repeated calls with the first calls, after `others` samples at other u.
 class RepeatedEvaluations {
  public:
-  // First what depends on no sample: a sample at the same u might bring back what it was asked with.
+  // Repeats pdf and invert before sample: a sample at the same u might restore the state of the first calls.
   void evaluate_again(const AnyDistribution& s, const Evaluation& a, int others) {
     const auto differ = [&](const std::string& question, const std::string& before, const std::string& now) {
       return fmt::format("{} is {} after {} other samples, was {} before", question, now, others, before);
@@ -90,7 +91,7 @@ class RepeatedEvaluations {
       invert_{"determinism of invert", 0, Fault::nondeterministic};
 };
 
-// Points that stay where they are though u moves.
+// Counts different u with equal points.
 class ConstantOutput {
  public:
   void note(const AnyDistribution& s, const Evaluation& a, const Evaluation& b) {
@@ -103,7 +104,7 @@ class ConstantOutput {
   }
 
   Check check() const {
-    // A point that is always the same is a function of u; one that is stuck for a while is not.
+    // A constant point is a function of u; a point that repeats for a while is not.
     const Fault fault = 2 * alike_ > pairs_ ? Fault::atom : Fault::nondeterministic;
     Check moves{"sample depends on u", Verdict::pass, {}, 0, double(pairs_), points / 2.0, fault, {}};
     if (pairs_ <= points / 2) return moves;
@@ -113,7 +114,7 @@ class ConstantOutput {
   }
 
  private:
-  int pairs_ = 0, alike_ = 0; // pairs of one point; those whose point is that of such a pair before
+  int pairs_ = 0, alike_ = 0; // pairs of u with equal points; pairs with the point of the previous such pair
   OptionalSample before_;
   std::string witness_;
 };
@@ -127,7 +128,7 @@ std::vector<Check> determinism_law(const AnyDistribution& s, const LawOptions& o
   for (int k = 0; k < points; ++k) {
     const Evaluation first = evaluate(s, random);
     Evaluation last = first;
-    // None to three: what alternates, or changes after so many calls, is met at another turn.
+    // Zero to three other samples detect results that alternate, or that change after a few calls.
     for (int others = k % 4; others > 0; --others) last = evaluate(s, random);
     repeated.evaluate_again(s, first, k % 4);
     constant.note(s, first, k % 4 > 0 ? last : evaluate(s, random));

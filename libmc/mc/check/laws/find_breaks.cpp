@@ -24,7 +24,7 @@ template <Real S> double bend(const std::vector<S>& a, const std::vector<S>& m, 
 template <Real S>
 std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, int segments, std::size_t most) {
   using P = std::vector<S>;
-  // The last number that a sampler can meet: wide scalars get doubles.
+  // The largest u of a distribution; wide scalars receive doubles.
   const S last = one_minus_epsilon<S> < S(1 - 0x1p-53) ? one_minus_epsilon<S> : S(1 - 0x1p-53);
   const auto n = static_cast<std::size_t>(segments);
   std::vector<S> at;
@@ -36,7 +36,7 @@ std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, i
   std::vector<double> steps(n), bends(n + 1, 0.0);
   for (std::size_t i = 0; i < n; ++i) steps[i] = step(x[i], x[i + 1]);
   for (std::size_t i = 1; i < n; ++i) bends[i] = bend(x[i - 1], x[i], x[i + 1]);
-  // The entries that stand out most from those `apart` places away.
+  // Returns the entries that exceed the entries `apart` places away most.
   const auto outstanding = [most](const std::vector<double>& values, std::size_t apart) {
     std::vector<std::pair<double, std::size_t>> found;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -76,7 +76,7 @@ std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, i
       const S l = (a + m) / 2, r = (m + b) / 2;
       if (!(l > a && l < m && r > m && r < b) || S(b - a) < least) break;
       const P fl = map(l), fr = map(r);
-      // The half with the sharpest bend: left, middle or right.
+      // Continues in the part with the sharpest bend: left, middle or right.
       const double left = bend(fa, fl, fm), middle = bend(fl, fm, fr), right = bend(fm, fr, fb);
       if (middle >= left && middle >= right) {
         a = l;

@@ -1,4 +1,4 @@
-// invert(sample(u)) = u.
+// Inverse law: invert(sample(u)) = u.
 
 #include <mc/check/laws/law.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 double size_of(const PointArray& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
 
-// The same point but for rounding, as the two sides of an azimuth's seam are.
+// Whether sample(back) equals x up to rounding, as on the two sides of the seam of an azimuth.
 bool same_point(const AnyDistribution& s, const AnyDistribution::Uniforms& back, const PointArray& x) {
   const auto again = s.sample(back);
   if (!again) return false;

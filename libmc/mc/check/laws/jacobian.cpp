@@ -1,4 +1,5 @@
-// |det d sample / d u| pdf = 1, by central differences: over 50 digits where the sampler has an oracle, else in double.
+// Jacobian law: |det d sample / d u| pdf = 1, by central differences. Over 50 digits if the distribution has an oracle,
+// else in double.
 
 #include <mc/check/laws/law.h>
 
@@ -7,7 +8,7 @@ namespace {
 
 template <class T> using Matrix = std::array<std::array<T, 3>, 3>;
 
-// Of the leading n rows and columns.
+// Returns the determinant of the leading n rows and columns.
 template <class T> T determinant(const Matrix<T>& j, std::size_t n) {
   if (n == 1) return j[0][0];
   if (n == 2) return j[0][0] * j[1][1] - j[0][1] * j[1][0];
@@ -47,7 +48,7 @@ Check oracle_jacobian(const AnyDistribution& s, const LawOptions& options) {
   return error.check();
 }
 
-// |det d v / d u| at u by differences of step h; NaN where the sampler fails.
+// Returns |det d v / d u| at u by differences of step h; NaN if sample fails.
 double determinant_at(const AnyDistribution& s, const AnyDistribution::Uniforms& u, double h) {
   const auto n = static_cast<std::size_t>(s.domain.dim);
   Matrix<double> j{};
@@ -63,8 +64,8 @@ double determinant_at(const AnyDistribution& s, const AnyDistribution::Uniforms&
   return std::abs(determinant(j, n));
 }
 
-// Three steps bound the error of their own result, which is taken off; rounding of an ill-conditioned sampler may still
-// slip through at single points, so the upper quartile is judged.
+// Differences of three steps give an error estimate, which is subtracted. An ill-conditioned map may still show large
+// rounding errors at single points, so the law tests the upper quartile.
 std::vector<Check> double_jacobian(const AnyDistribution& s, const LawOptions& options) {
   constexpr double limit = 1e-6, first_step = 0x1p-12;
   struct Point {

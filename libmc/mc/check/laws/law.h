@@ -1,5 +1,6 @@
 #pragma once
-/// What a law of samplers is: one function in a file of its own, one row of the table in laws.cpp.
+/// Interface of the laws of distributions. Each law is one function in a file of its own and one row of the table in
+/// laws.cpp.
 
 #include <mc/check/laws/worst_error.h>
 #include <mc/check/report/report.h>
@@ -13,31 +14,33 @@
 
 namespace mc {
 
-/// Bounds are those of the sampler's contract, in machine epsilons of its scalar.
+/// Options of the laws. Error bounds are the contract of the distribution, in machine epsilons of its scalar.
 struct LawOptions {
-  std::string name = "warp";
-  std::uint64_t samples = 1'000'000; ///< for the counts; 0 leaves the statistical tests out
-  std::uint64_t seed = 1;
-  double alpha = 0.001;       ///< see SubjectOptions
-  std::uint64_t points = 256; ///< random points of the deterministic laws over the 50-digit oracle
-  double invert_eps = 16;     ///< |invert(sample(u)) - u|
-  double sample_eps = 16;     ///< |sample(u) - exact| beyond what 4 steps of u make, relative to max(1, |exact|)
-  double pdf_eps = 64;        ///< |pdf(x) / exact - 1|
-  double mass_eps = 64;       ///< |mass - 1| beyond the bound on the quadrature error
-  std::size_t max_evaluations = 12'000'000;
-  bool evidence = false;      ///< see SubjectOptions
-  bool open_interval = false; ///< u in (0,1): the sampler may break at single u, see boundary in laws.h
-  const std::function<void()>* before_draws = nullptr; ///< called again and again; what it throws ends the check
+  std::string name = "warp";         ///< name in the report
+  std::uint64_t samples = 1'000'000; ///< number of counted samples; 0 skips the statistical tests
+  std::uint64_t seed = 1;            ///< seed of all random numbers
+  double alpha = 0.001;              ///< family-wise level of the statistical tests
+  std::uint64_t points = 256;        ///< number of random points for the laws over the 50-digit oracle
+  double invert_eps = 16;            ///< bound on |invert(sample(u)) - u|
+  double sample_eps = 16; ///< |sample(u) - exact| / max(1, |exact|), beyond the effect of 4 rounding steps of u
+  double pdf_eps = 64;    ///< bound on |pdf(x) / exact - 1|
+  double mass_eps = 64;   ///< bound on |mass - 1| beyond the quadrature error
+  std::size_t max_evaluations = 12'000'000; ///< largest number of evaluations of the density
+  bool evidence = false;                    ///< keep all counts and intermediate p-values
+  bool open_interval = false;               ///< u in (0,1): accepts faults of measure zero, like SubjectOptions
+  /// Called before each batch of draws; an exception that it throws ends the check.
+  const std::function<void()>* before_draws = nullptr;
 };
 
-/// A deterministic law: its checks, or none where the sampler lacks what it needs.
+/// A deterministic law. Returns its checks; none if the distribution lacks a required function.
 using Law = std::vector<Check>(const AnyDistribution& distribution, const LawOptions& options);
 
-Law inverse_law, determinism_law; ///< those that are asked for alone, too
+Law inverse_law, determinism_law; ///< laws that other files call directly
 
-/// A random point of the unit cube for a law: the same numbers in double, rounded to the sampler's scalar.
+/// Returns a random point of the unit cube: the same numbers in double for all scalars, rounded to the distribution's
+/// scalar.
 AnyDistribution::Uniforms rounded_uniforms(const AnyDistribution& distribution, Pcg& random);
-/// The same, not rounded.
+/// The same without rounding.
 OracleDistribution::Point oracle_uniforms(const AnyDistribution& distribution, Pcg& random);
 
 } // namespace mc

@@ -1,4 +1,4 @@
-// sample and pdf against the 50-digit oracle.
+// Precision law: sample and pdf against the 50-digit oracle.
 
 #include <mc/check/laws/law.h>
 
@@ -9,7 +9,7 @@ double size_of(const OracleDistribution::Point& x) {
   return static_cast<double>(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
 }
 
-// How far off, in epsilons: relative to the largest of 1 and the exact sample.
+// Returns the error in epsilons, relative to the larger of 1 and the exact sample.
 double off_by(const AnyDistribution& s, const OracleDistribution::Point& x, const OracleDistribution::Point& exact) {
   return size_of({x[0] - exact[0], x[1] - exact[1], x[2] - exact[2]}) / std::max(1.0, size_of(exact)) / s.epsilon();
 }
@@ -18,7 +18,7 @@ std::string format_exact(const AnyDistribution& s, const OracleDistribution::Poi
   return format_x(s, {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])});
 }
 
-// How far rounding u on the way carries the exact sample, as what maps u once more does: a mixture, a product.
+// Returns the change of the exact sample by rounding of u, which occurs in maps that remap u: mixtures, products.
 double off_by_rounding(const AnyDistribution& s, const AnyDistribution::Uniforms& u,
                        const OracleDistribution::Point& exact) {
   constexpr double steps = 4;
@@ -42,7 +42,7 @@ std::vector<Check> precision_law(const AnyDistribution& s, const LawOptions& opt
     const AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     const auto drawn = s.sample(u);
     const auto exact = s.oracle->sample({u[0], u[1], u[2]});
-    // Where one fails and the other does not is a matter of rounding; the rate of failures is tested with the mass.
+    // Rounding decides cases in which only one of the two fails; the test of the mass covers the rate of failures.
     if (!drawn || !exact) continue;
     const OracleDistribution::Point x{drawn->x[0], drawn->x[1], drawn->x[2]};
     double off = off_by(s, x, *exact);
@@ -52,7 +52,7 @@ std::vector<Check> precision_law(const AnyDistribution& s, const LawOptions& opt
                          format_u(s, u));
     });
     const Oracle density = s.oracle->pdf(x);
-    // Rounding may carry x across the edge of the support, where the two sides differ and both are right.
+    // Rounding may move x across the edge of the support, where the densities of both sides are correct.
     if (!(density > 0)) continue;
     const double claimed = s.pdf(drawn->x);
     const double wrong = std::abs(static_cast<double>(claimed / density) - 1) / s.epsilon();

@@ -1,4 +1,4 @@
-// What the sampler is for, eval, is >= 0, and positive only where the density is.
+// Support law: eval >= 0, and pdf > 0 wherever eval > 0.
 
 #include <mc/check/laws/law.h>
 

@@ -9,13 +9,13 @@
 
 namespace mc {
 
-/// Collects the errors of one law over many points.
+/// Collects the errors of one law at many points.
 class WorstError {
  public:
   WorstError(std::string law, double limit, Fault fault) : law_(std::move(law)), limit_(limit), fault_(fault) {}
 
-  /// Adds the error at one point. `describe` returns the finding (observed value, expected value, place); it runs only
-  /// for a new largest error beyond the limit. NaN exceeds every other error.
+  /// Adds the error at one point. `describe` returns the finding (observed value, expected value, place); it is called
+  /// only for a new largest error beyond the limit. NaN exceeds every other error.
   template <std::invocable Describe> void note(double error, Describe&& describe) {
     ++points_;
     if (error <= limit_) {
@@ -29,6 +29,7 @@ class WorstError {
     }
   }
 
+  /// Returns the result; fails if any error exceeds the limit.
   Check check() const {
     Check c{law_, broken_ == 0 ? Verdict::pass : Verdict::fail, {}, 0, worst_, limit_, fault_, {}};
     if (broken_ > 0)

@@ -75,7 +75,7 @@ const Check* leading_failure(const std::vector<Check>& checks) {
   const auto measure_zero = [](const Check& c) { return c.fault == Fault::measure_zero; };
   const Check* certain = first_failed(checks, [&](const Check& c) { return !c.p && !measure_zero(c); });
   const Check* beyond_doubt = first_failed(checks, [](const Check& c) { return c.p && *c.p < 1e-9; });
-  // The density weighs the energy: a wrong density makes the white furnace wrong.
+  // A wrong density also makes the white furnace fail, because the furnace divides by the density.
   if (beyond_doubt && certain && (certain->fault == Fault::boundary || certain->fault == Fault::physics))
     return beyond_doubt;
   if (certain) return certain;
@@ -87,10 +87,11 @@ std::string p_text(double p) { return p < 1e-300 ? std::string("p < 1e-300") : f
 
 std::string percent(double error) { return error > 1 ? "more than 100 %" : fmt::format("{:.2g} %", 100 * error); }
 
-// Larger |z| than chance makes of the worst of some thousand cells.
+// Chance rarely exceeds this |z| in the worst of a few thousand cells.
 constexpr double least_telling = 4;
 
-// "cell theta 1.5 to 3 deg, phi 0 to 90 deg, about (0.04, 0, 0.999), contains 120 samples, 64.0 expected (z = 7.0)"
+// Returns "cell theta 1.5 to 3 deg, phi 0 to 90 deg, about (0.04, 0, 0.999), contains 120 samples, 64.0 expected (z =
+// 7.0)".
 std::string describe_worst(const std::vector<Axis>& axes, const WorstCell& w) {
   const std::string count = fmt::format("{:.0f} samples, {:.1f} expected (z = {:.1f})", w.observed, w.expected, w.z);
   if (w.lo == w.hi) return fmt::format("{} has {}", w.where, count);
@@ -99,7 +100,7 @@ std::string describe_worst(const std::vector<Axis>& axes, const WorstCell& w) {
                      w.where.empty() ? "" : ", about " + w.where, w.where.empty() ? "" : ",", count);
 }
 
-// Whether the worst cells show more of the failure.
+// Whether the worst cells help to explain the failure.
 bool concerns_cells(const Check& c) {
   return c.p && (c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::rotation);
 }
@@ -107,14 +108,15 @@ bool concerns_cells(const Check& c) {
 std::string_view first_clause(std::string_view detail) { return detail.substr(0, detail.find("; ")); }
 std::string_view remarks(std::string_view detail) { return detail.substr(first_clause(detail).size()); }
 
-// "(p = 1e-9)" or "(largest error 0.2, limit 0.001)"; nothing of a law that allows no error, which is counted.
+// Returns "(p = 1e-9)" or "(largest error 0.2, limit 0.001)"; empty for a law without tolerance, which only counts
+// violations.
 std::string measure(const Check& c) {
   if (c.verdict != Verdict::fail) return {};
   if (c.p) return fmt::format(" ({})", p_text(*c.p));
   return c.limit > 0 ? fmt::format(" (largest error {:.6g}, limit {:.6g})", c.statistic, c.limit) : std::string();
 }
 
-// "law: weight = f / pdf (largest error 0.2, limit 0.001); 5 of 100 samples", below the finding.
+// Returns the line below the finding: "law: weight = f / pdf (largest error 0.2, limit 0.001); 5 of 100 samples".
 std::string describe_leading(const Check& c) {
   return fmt::format("\n  {}: {}{}{}", c.p ? "test" : "law", c.name, measure(c), remarks(c.detail));
 }

@@ -61,7 +61,7 @@ std::string format_x(const AnyDistribution& s, const PointArray& x) {
 
 namespace {
 
-// "r = 0.3, phi = 20 deg": radii and angles at chart coordinates v; empty for a domain without them.
+// Returns radii and angles at chart coordinates v, "r = 0.3, phi = 20 deg"; empty for a domain without them.
 std::string describe_angles(const std::vector<Axis>& axes, const Subject::Coordinates& v) {
   std::string text;
   for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), v.size()); ++d) {
@@ -73,7 +73,7 @@ std::string describe_angles(const std::vector<Axis>& axes, const Subject::Coordi
   return text;
 }
 
-// ", of length 1 + 1e-9" of a point that should be a direction: none of its digits says so at a glance.
+// Returns ", of length 1 + 1e-9" for a point that should be a direction, because its digits do not show the length.
 std::string describe_length(const AnyDistribution& s, const PointArray& x) {
   if (s.domain.point_size != 3 || s.domain.dim != 2) return {};
   const auto off = [](const PointArray& y) { return std::hypot(y[0], y[1], y[2]) - 1; };
@@ -83,7 +83,7 @@ std::string describe_length(const AnyDistribution& s, const PointArray& x) {
   return fmt::format(", of length 1 {} {:.2g}", off(x) < 0 ? '-' : '+', std::abs(off(x)));
 }
 
-// "x = (0, 1), pdf = 2, eval = 3", or what else it is.
+// Returns "x = (0, 1), pdf = 2, eval = 3", or describes the outcome or the fault of the sample.
 std::string describe_drawn(const AnyDistribution& s, const AnyDistribution::Sample& drawn) {
   const ChartSample p = to_chart(s, drawn);
   std::string text;
@@ -99,14 +99,14 @@ std::string describe_drawn(const AnyDistribution& s, const AnyDistribution::Samp
   return text;
 }
 
-// "weight is 0.6, should be 0.5", and the likely reason after "; ".
+// Returns "weight is 0.6, should be 0.5", and the likely reason after "; ".
 std::string describe_stated(const AnyDistribution::Sample& drawn) {
   const AnyDistribution::Stated& s = drawn.stated;
   if (std::isnan(s.expected)) return fmt::format("weight is {:.9g} f / pdf, should be f / pdf", drawn.weight);
   return fmt::format("{} is {:.9g}, should be {:.9g}{}{}", s.name, s.value, s.expected, *s.hint ? "; " : "", s.hint);
 }
 
-// "u = (0.25, 0.5)": the random numbers that a draw took from the stream; empty where it took none or too many.
+// Returns "u = (0.25, 0.5)", the random numbers that a draw used; empty if it used none or too many.
 std::string format_taken(const AnyDistribution& s, Pcg before, const Pcg& after) {
   constexpr int most = 64;
   int words = 0;
@@ -118,14 +118,14 @@ std::string format_taken(const AnyDistribution& s, Pcg before, const Pcg& after)
   return "u = " + format_numbers(u, wide ? 17 : std::numeric_limits<float>::max_digits10) + ", ";
 }
 
-// The random numbers of draw `index` of the stream `seed`.
+// Returns the random numbers of draw `index` of the stream `seed`.
 AnyDistribution::Uniforms uniforms_of_draw(const AnyDistribution& s, std::uint64_t seed, std::uint64_t index) {
   Pcg random(seed);
   random.advance(index * static_cast<std::uint64_t>(s.uniforms) * (s.is_float ? 1 : 2));
   return random_uniforms(s, random);
 }
 
-// Draw `index` of the stream `seed` of a sampler without u, and the random numbers that it took.
+// Draw `index` of the stream `seed` of a distribution without u, and the random numbers that it used.
 struct StreamDraw {
   std::optional<AnyDistribution::Sample> drawn;
   std::string taken;
@@ -157,7 +157,7 @@ std::string describe_weight(const AnyDistribution& s, std::uint64_t seed, std::u
   return drawn ? describe_stated(*drawn) : "sample fails";
 }
 
-// How far one unit in the last place of the point at v moves chart coordinate `axis`.
+// Returns the change of chart coordinate `axis` for a change of the point at v by one unit in the last place.
 double resolution(const AnyDistribution& s, const Subject::Coordinates& v, std::size_t axis) {
   const PointArray x = s.domain.from_unit(v).x;
   double worst = s.epsilon() * v[axis];
@@ -169,7 +169,7 @@ double resolution(const AnyDistribution& s, const Subject::Coordinates& v, std::
   return worst;
 }
 
-// What a function that shares something with others was made of; nothing for any other function.
+// Returns the state of a function made by set_shared; null for any other function.
 template <class Signature> const void* held_by(const std::function<Signature>& function) {
   const auto* call = function.template target<detail::SharedCall<Signature>>();
   return call ? call->held.get() : nullptr;
@@ -180,8 +180,8 @@ bool draws_as_it_samples(const AnyDistribution& s) {
   return held && held == held_by(s.sample) && held == held_by(s.pdf);
 }
 
-// Hands over n random u of the stream `seed`, few at once, so that what is made of them stays in the fastest memory. A
-// program is asked for all of them in one batch.
+// Passes n random u of the stream `seed` to `take`, in batches small enough for the cache. Distributions with
+// sample_many receive all u in one batch.
 template <class Take> void in_batches(const AnyDistribution& s, std::uint64_t seed, std::size_t n, const Take& take) {
   Pcg random(seed);
   std::vector<AnyDistribution::Uniforms> u(s.sample_many ? n : std::min<std::size_t>(n, 256));
@@ -192,7 +192,7 @@ template <class Take> void in_batches(const AnyDistribution& s, std::uint64_t se
   }
 }
 
-// Hands over the sample of each u.
+// Passes the sample of each u to `take`.
 template <class Take>
 void sample_each(const AnyDistribution& s, const std::vector<AnyDistribution::Uniforms>& u, const Take& take) {
   if (s.sample_many)

@@ -15,7 +15,7 @@ namespace mc {
 using numeric_limits = std::numeric_limits<Oracle>;
 constexpr int digits = numeric_limits::digits;
 
-/// An Oracle as MPFR sees it, for one call.
+/// MPFR's representation of an Oracle, for the duration of one call.
 class OracleView {
  public:
   OracleView() : OracleView(Oracle()) {}
@@ -47,14 +47,14 @@ class OracleView {
 
 namespace {
 
-// MPFR keeps pi and log 2 for each thread, until it is told that the thread ends.
+// MPFR caches pi and log 2 for each thread; this frees the cache when the thread ends.
 struct Constants {
   ~Constants() { mpfr_free_cache2(MPFR_FREE_LOCAL_CACHE); }
   void keep() {}
 };
 thread_local Constants constants;
 
-// The rounded result of a function of MPFR.
+// Returns the rounded result of a function of MPFR.
 template <class F, class... X> Oracle call(F f, const X&... x) {
   constants.keep();
   OracleView result;
@@ -66,14 +66,14 @@ Oracle apply(int (*f)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t), const Ora
   return call(f, OracleView(x).get(), OracleView(y).get());
 }
 
-// The root beside x > 0 of a function by Newton's method, to half of the digits and once more; step(x) is f / f'.
+// Returns a root near x > 0 by Newton's method: iterates to half of the digits, then once more. step(x) is f / f'.
 template <class Step> Oracle newton_root(Oracle x, Step&& step) {
   const Oracle settled = ldexp(Oracle(1), -digits / 2 - 8);
   for (Oracle change = x; abs(change) > abs(x) * settled;) x -= change = step(x);
   return x;
 }
 
-// As the stream would write a double.
+// Returns the format in which the stream writes a double.
 const char* mpfr_format(const std::ostream& out) {
   const auto style = out.flags() & std::ios_base::floatfield;
   if (style == std::ios_base::scientific) return "%.*Re";
@@ -138,11 +138,12 @@ Oracle erfc_inv(const Oracle& p) {
   static const Oracle half_root_pi = sqrt(acos(Oracle(-1))) / 2;
   const auto least = std::numeric_limits<double>::min();
   const double near = p >= least ? erfc_inv(static_cast<double>(p)) : infinity<double>;
-  // erf is concave above 0: Newton's method cannot leave it from below, where its tangent at 0 says.
+  // erf is concave above 0: Newton's method stays below the root when it starts there. The tangent at 0 gives such a
+  // start.
   if (const Oracle z = 1 - p; z < 0.5)
     return newton_root(near > 1e-6 ? Oracle(near) : half_root_pi * z,
                        [&](const Oracle& x) { return half_root_pi * exp(x * x) * (erf(x) - z); });
-  // Nor the logarithm of erfc(x) from above, where -x^2 says.
+  // log erfc(x) is concave: Newton's method stays above the root when it starts there. -x^2 gives such a start.
   return newton_root(std::isfinite(near) ? Oracle(near) : sqrt(-log(p)), [log_p = log(p)](const Oracle& x) {
     return half_root_pi * exp(x * x) * erfc(x) * (log_p - log(erfc(x)));
   });

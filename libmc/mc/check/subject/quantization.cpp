@@ -33,17 +33,17 @@ std::vector<SampledPoint> draw_points(const AnyDistribution& s, std::uint64_t se
   return points;
 }
 
-// The k of the largest 2^k that a float other than 0 is a multiple of.
+// Returns the largest k such that a nonzero float is a multiple of 2^k.
 int lowest_bit(float x) {
   int exponent = 0;
   const double digits = std::frexp(static_cast<double>(std::abs(x)), &exponent) * 0x1p24;
   return exponent - 24 + std::countr_zero(static_cast<std::uint32_t>(digits));
 }
 
-constexpr int spare_bits = 1; // a float made of 23 random bits comes in steps of a float still
+constexpr int spare_bits = 1; // a float with 23 random bits still counts as a full float
 
-// Whether 1 - cos theta is a multiple of 2^-24, the distance of floats below 1, wherever that can be told, and not of
-// coarser steps.
+// Whether 1 - cos theta is a multiple of 2^-24, the spacing of floats below 1, and not of coarser steps. Only samples
+// near the pole decide.
 bool steps_at_pole(const std::vector<SampledPoint>& points, const Axis& axis, std::size_t k) {
   std::size_t near = 0, whole = 0, moved = 0, fine = 0;
   for (const SampledPoint& p : points) {
@@ -58,14 +58,14 @@ bool steps_at_pole(const std::vector<SampledPoint>& points, const Axis& axis, st
   return near >= least_points && static_cast<double>(whole) > 0.9 * static_cast<double>(near) && !coarse;
 }
 
-// What all of some floats are multiples of.
+// The largest power of two that divides all values of a set of floats.
 struct Step {
-  int exponent = 0;    // of the power of two
-  bool coarse = false; // coarser than what floats as large as the largest of them come in
+  int exponent = 0;    // the power of two
+  bool coarse = false; // coarser than the spacing of floats at the largest value
   std::string_view unit = {};
 };
 
-// The step of values that are floats, and not all the same one.
+// Returns the step of values that are floats and not all equal; no value for others.
 template <class Value> std::optional<Step> step_of(const std::vector<SampledPoint>& points, Value value) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   constexpr int none = std::numeric_limits<int>::max();
@@ -84,12 +84,13 @@ template <class Value> std::optional<Step> step_of(const std::vector<SampledPoin
   return Step{exponent, exponent > std::ilogb(largest) - 23 + spare_bits};
 }
 
-// Likewise of what is made of their coordinate k of the chart.
-template <class Value> std::optional<Step> step_at(const std::vector<SampledPoint>& points, std::size_t k, Value value) {
+// The same for a function of chart coordinate k.
+template <class Value>
+std::optional<Step> step_at(const std::vector<SampledPoint>& points, std::size_t k, Value value) {
   return step_of(points, [&](const SampledPoint& p) { return value(p.v[k]); });
 }
 
-// The step of what the axis stands for, where it comes in any.
+// Returns the step of the quantity of an axis; no value if it has none.
 std::optional<Step> step_of_axis(const std::vector<SampledPoint>& points, const Axis& axis, std::size_t k) {
   const auto step = [&](auto value) { return step_at(points, k, value); };
   switch (axis.scale) {
@@ -106,7 +107,7 @@ std::optional<Step> step_of_axis(const std::vector<SampledPoint>& points, const 
   }
 }
 
-// What comes in steps, and in which; empty where nothing can be said about it.
+// Returns a clause about the step of a quantity; empty if there is nothing to report.
 std::string clause(const std::string& what, const std::optional<Step>& step, bool is_float) {
   if (step && step->coarse)
     return fmt::format("{} has only multiples of {:.2g}{} (2^{})", what, std::ldexp(1.0, step->exponent), step->unit,
@@ -115,7 +116,7 @@ std::string clause(const std::string& what, const std::optional<Step>& step, boo
   return what + " is rounded to float; compute it in double, or check the distribution as float";
 }
 
-// Of the axes first, which say more than the numbers of a point.
+// Tests the axes first, because they explain more than the coordinates of a point.
 std::string clause_of_all(const AnyDistribution& s, const std::vector<SampledPoint>& points) {
   for (std::size_t k = 0; k < s.domain.axes.size(); ++k) {
     const Axis& axis = s.domain.axes[k];
@@ -131,8 +132,7 @@ std::string clause_of_all(const AnyDistribution& s, const std::vector<SampledPoi
   return {};
 }
 
-// How far x is off the domain: off the point of the chart's edge that it is next to. Nothing where the chart ends at no
-// point there.
+// Returns the distance of x from the nearest point on the edge of the chart; no value if the chart has no point there.
 std::optional<double> distance(const AnyDomain& domain, const PointArray& x) {
   AnyDomain::Coordinates v = domain.to_unit(x);
   for (double& one : v) {
@@ -148,7 +148,8 @@ std::optional<double> distance(const AnyDomain& domain, const PointArray& x) {
   return most;
 }
 
-// A float that needs more than half of its digits: 0.75 says nothing about how it was computed.
+// Whether x is a float that needs more than half of its digits. Short floats such as 0.75 do not show the precision of
+// their computation.
 bool is_float_in_full(double x) {
   const auto rounded = static_cast<float>(x);
   return rounded != 0 && static_cast<double>(rounded) == x && std::ilogb(rounded) - lowest_bit(rounded) > 12;

@@ -55,7 +55,7 @@ namespace {
 
 using Direction = AnyBsdf::Direction;
 
-// The channel with the largest difference.
+// Returns the channel with the largest difference.
 int worst_channel(const Channels& a, const Channels& b) {
   int worst = 0;
   for (int c = 1; c < std::max(a.count, b.count); ++c)
@@ -63,7 +63,7 @@ int worst_channel(const Channels& a, const Channels& b) {
   return worst;
 }
 
-// The largest difference of a sample's own f, weight and pdf from eval and pdf, and the two values.
+// The largest difference between the stated f, weight and pdf of a sample and eval and pdf.
 struct SampleDifference {
   double off = 0;
   AnyDistribution::Stated stated;
@@ -100,7 +100,7 @@ SampleDifference sample_difference(const AnyBsdf& bsdf, const Direction& wo, con
   return result;
 }
 
-// Probabilities of the delta lobes as the first samples state them, and whether there is more than they.
+// Probabilities of the delta lobes as stated by the first samples, and whether other samples occur.
 struct Lobes {
   std::array<double, 2> probability{};
   bool continuous = false;

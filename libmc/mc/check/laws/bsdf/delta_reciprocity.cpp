@@ -1,4 +1,5 @@
-// The same light through a delta lobe both ways: shares of the energy, so that refraction needs no further factor.
+// Reciprocity law of delta lobes: a lobe carries the same share of the energy both ways. With shares, refraction needs
+// no further factor.
 
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
@@ -7,13 +8,13 @@
 namespace mc {
 namespace {
 
-// What the delta lobe takes of the light that leaves along `from`.
+// Returns the share of the light leaving along `from` that the delta lobe carries.
 Channels share(const AnyBsdf::Sample& d, const AnyBsdf::Direction& from, const BsdfOptions& options) {
   const double scale = d.transmission ? squared_index(d.wi, options) / squared_index(from, options) : 1;
   return scaled(throughput(d, options), scale * d.pdf);
 }
 
-// The share of the way back from `there` to wo; nothing where 1024 samples do not meet it.
+// Returns the share on the way back from `there` to wo; no value if 1024 samples do not draw this lobe.
 std::optional<Channels> share_back(const BsdfView& view, const AnyBsdf::Sample& there, Pcg& random) {
   for (int k = 0; k < 1024; ++k) {
     const auto d = view.bsdf.sample_next(there.wi, random);
@@ -36,7 +37,7 @@ BsdfFindings bsdf_delta_reciprocity_law(const BsdfView& view) {
     const Channels forth = share(*there, view.wo, view.options);
     const std::optional<Channels> back = share_back(view, *there, random);
     for (int c = 0; c < std::max(forth.count, back ? back->count : 0); ++c) {
-      if (!back && forth[c] < 0.05) continue; // too rare to meet
+      if (!back && forth[c] < 0.05) continue; // too rare for 1024 samples
       error.note(std::abs(forth[c] - (back ? (*back)[c] : HUGE_VAL)), [&] {
         return fmt::format("delta lobe carries {} of the energy from wi to wo, should be {:.6g} as from wo to wi, at "
                            "wo = {}, wi = {}",

@@ -1,4 +1,4 @@
-// At most 1 of the light that comes from everywhere leaves, exactly 1 where nothing is absorbed.
+// Energy law: the white furnace albedo is at most 1; exactly 1 for a lossless BSDF.
 
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
@@ -8,8 +8,8 @@
 namespace mc {
 namespace {
 
-// The white furnace: the share of light from everywhere that leaves along wo, the mean of f |cos| / pdf, per channel.
-// Those that the BSDF does not have repeat its last one.
+// White furnace: estimates the albedo for wo, the mean of f |cos| / pdf, per channel. Missing channels repeat the last
+// one.
 std::array<Moments, Channels::max_count> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n,
                                                        std::uint64_t seed) {
   std::array<Moments, Channels::max_count> albedo;
@@ -27,7 +27,7 @@ std::array<Moments, Channels::max_count> white_furnace(const BsdfView& view, con
   return albedo;
 }
 
-// Judges the furnace at one wo; the figure is the greatest channel's.
+// Tests the albedo for one wo. The returned value is the largest over the channels.
 ReportedValue judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uint64_t seed, WorstError& energy) {
   const BsdfOptions& options = view.options;
   const std::string where = view.bsdf.format(wo);
@@ -67,7 +67,7 @@ BsdfFindings bsdf_energy_law(const BsdfView& view) {
     most = f.value;
     brightest = w;
   }
-  // A thousand samples miss an albedo of 1.27 where they seldom draw the lobe that gains.
+  // A thousand samples underestimate the albedo if they rarely draw the lobe that gains energy.
   ReportedValue again = judge(view, brightest, n, view.options.seed + 33, energy);
   again.name = "white furnace, greatest over wo";
   return {{energy.check()}, {here, again}};

@@ -1,4 +1,4 @@
-// f(wo, wi) = f(wi, wo), with the squared index across the surface.
+// Reciprocity law: f(wo, wi) = f(wi, wo), with the squared ratio of the indices across the surface.
 
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
@@ -6,7 +6,7 @@ namespace mc {
 
 namespace {
 
-// Whether f / |cos| is reciprocal where f is not: then eval seems to include the cosine.
+// Whether f / |cos| is reciprocal although f is not; eval then seems to include the cosine.
 bool includes_cosine(const BsdfView& view, const DirectionPair& pair, double scale) {
   const double cos_i = std::abs(pair.wi.z()), cos_o = std::abs(view.wo.z());
   return relative_difference(scaled(pair.f, scale * cos_o), scaled(pair.f_reverse, cos_i)) <= view.options.tolerance;

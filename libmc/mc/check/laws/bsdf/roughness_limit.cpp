@@ -10,7 +10,7 @@ double excess(const Moments& m, double allowed, const RoughnessLimitOptions& opt
                               : std::max(std::abs(m.mean()) - allowed - options.noise - 5 * m.std_error(), 0.0);
 }
 
-// Of one draw: weight and weight wi of each channel, those that the BSDF does not have as its last one; absorption.
+// Features of one draw: weight and weight * wi of each channel (missing channels repeat the last one), and absorption.
 constexpr std::size_t per_channel = 4, feature_count = per_channel * Channels::max_count + 1;
 using Features = std::array<double, feature_count>;
 

@@ -1,25 +1,27 @@
 #pragma once
-/// Whether a family of rough BSDFs tends to its smooth limit.
+/// Tests the limit of a family of rough BSDFs at zero roughness.
 
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
 namespace mc {
 
+/// Options of check_limit.
 struct RoughnessLimitOptions {
   BsdfOptions bsdf;
-  double slope = 4; ///< what a roughness of r may change: means by slope r, f by slope times the relative change of r
+  /// Lipschitz constants: a roughness r may change means by slope * r, and f by slope times the relative change of r.
+  double slope = 4;
   double noise = 1e-4; ///< rounding error of the means, conceded to them
   int samples = 20'000;
 };
 
-/// Continuity in the limits of roughness, at one wo. family(r) is the BSDF of roughness r in (0, 1], `limit` what it is
-/// at 0.
-///   sample : the means of weight, of weight wi and of the share that is absorbed tend to those of the limit: at r =
-///            2^-2, 2^-4 ... 2^-16 they differ by at most slope r + noise + five standard errors; the same random
-///            numbers on both sides keep those small
-///   eval   : f at r (1 + d) tends to f at r, for r = 1, 1/4 ... 2^-10 and d = -1/16, -1/64, -1/256: the mean of |f' -
-///            f| |cos| / pdf over samples of r is at most slope |d| + noise + five standard errors. With mass 1 at
-///            every r (check_bsdf) eval then tends to the limit's lobe, since its samples do
+/// Tests the continuity of a family of BSDFs in roughness, for one wo. family(r) is the BSDF of roughness r in (0, 1];
+/// `limit` is the smooth BSDF.
+///   sample : the means of weight, of weight * wi and of the absorbed fraction approach the means of the limit. For r =
+///            2^-2, 2^-4, ..., 2^-16 they differ by at most slope r + noise + five standard errors. Both sides use the
+///            same random numbers, which keeps the standard errors small.
+///   eval   : f at r (1 + d) approaches f at r, for r = 1, 1/4, ..., 2^-10 and d = -1/16, -1/64, -1/256. The mean of
+///            |f' - f| |cos| / pdf over samples at r is at most slope |d| + noise + five standard errors. If check_bsdf
+///            confirms mass 1 at every r, eval thus approaches the lobe of the limit, since the samples do.
 std::vector<Check> check_limit(const std::function<AnyBsdf(double r)>& family, const AnyBsdf& limit,
                                const AnyBsdf::Direction& wo, const RoughnessLimitOptions& options = {});
 

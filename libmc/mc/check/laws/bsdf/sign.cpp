@@ -1,4 +1,4 @@
-// f is finite and >= 0.
+// Sign law: f is finite and >= 0.
 
 #include <mc/check/laws/bsdf/bsdf_law.h>
 

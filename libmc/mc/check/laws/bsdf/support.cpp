@@ -1,4 +1,4 @@
-// pdf > 0 wherever f > 0, or the estimator would miss light.
+// Support law: pdf > 0 wherever f > 0; otherwise an estimator loses light.
 
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
