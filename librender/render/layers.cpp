@@ -11,7 +11,7 @@ namespace render {
 
 namespace {
 
-/// What one ray meets.
+/// Values at the hit of one ray.
 struct Met {
   Vec3 n = Vec3::Zero();
   Vec3d p = Vec3d::Zero();
@@ -28,7 +28,7 @@ std::array<double, names.size()> values(const Met& m) {
           double(m.albedo[0]), double(m.albedo[1]), double(m.albedo[2]), double(m.id)};
 }
 
-// The mean of f |cos| eta^2 / pdf, by the same points everywhere, so that one surface has one colour.
+// Mean of f |cos| eta^2 / pdf. All calls use the same points, so that equal surfaces have equal values.
 Spectrum albedo(const Bsdf& bsdf, const Vec3& wo) {
   constexpr std::uint32_t n = 64;
   const mc::SobolPairs points(0, n);
@@ -42,7 +42,7 @@ Spectrum albedo(const Bsdf& bsdf, const Vec3& wo) {
   return sum / Float(n);
 }
 
-// Of a surface with a mask, where at least half of it is there.
+// Values at the first hit. A mask counts as opaque where its opacity is at least 1/2.
 Met look(const Scene& scene, Ray ray, const Vec3d& origin) {
   Met m;
   std::uint64_t rays = 0;

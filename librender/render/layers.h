@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture shows beside light.
+/// Auxiliary layers of an image, such as normals and albedo.
 
 #include <render/pixel_renderer.h>
 
@@ -9,14 +9,16 @@
 
 namespace render {
 
-/// Of every pixel of the part what the ray through its middle, from the middle of the lens, meets, row by row: one ray,
-/// no filter, no noise. By their names as channels of an EXR:
-///   N.X, N.Y, N.Z : the shading normal, unit; 0 where nothing is met
-///   P.X, P.Y, P.Z : the point [scene units], in the coordinates whose point `origin` is the scene's origin; 0 there
-///   Z             : how far it lies from the camera along the viewing direction [scene units]; infinite there
-///   albedo.R .G .B : the share of light from the camera that the surface reflects and lets through; 0 there. Exact of
-///                   what is diffuse or smooth, to .02 of what is rough
-///   id            : the number of the shape in the order in which the scene lists them, from 1; 0 there. To 2^24
+/// Layers of every pixel of the crop, row by row from the top. Each value is from one ray through the centres of pixel
+/// and lens: no filter and no noise. The names are channel names for OpenEXR.
+///   N.X, N.Y, N.Z : unit shading normal; 0 without a hit.
+///   P.X, P.Y, P.Z : position [scene units] plus `origin`, the position of the scene's origin in other coordinates; 0
+///                   without a hit.
+///   Z             : distance from the camera along the view direction [scene units]; infinite without a hit.
+///   albedo.R .G .B : share of light from the camera that the surface reflects and transmits; 0 without a hit. Exact
+///                    for diffuse and smooth surfaces; within .02 for rough surfaces.
+///   id            : number of the shape in the scene, from 1; 0 without a hit. Exact up to 2^24 shapes.
+///   threads       : number of threads; 0: all of the machine.
 std::map<std::string, std::vector<float>> layers(const Scene& scene, const ImageExtent& extent,
                                                  const Vec3d& origin = Vec3d::Zero(), int threads = 0);
 

@@ -11,9 +11,10 @@ namespace render {
 
 namespace {
 
-constexpr std::uint64_t block = 1024; // paths that one thread takes at a time
-constexpr std::size_t most_pixels = 2 * static_cast<std::size_t>(SplatFilter::max_radius) + 1; // along one axis
-constexpr std::uint64_t apart = 0x6c69676874; // from the numbers of the pixels
+constexpr std::uint64_t block = 1024; // number of paths that a thread traces at a time
+// largest number of pixels under the filter along one axis
+constexpr std::size_t most_pixels = 2 * static_cast<std::size_t>(SplatFilter::max_radius) + 1;
+constexpr std::uint64_t apart = 0x6c69676874; // separates these random numbers from the numbers of the pixels
 
 } // namespace
 
@@ -24,7 +25,7 @@ LightTracingPass::LightTracingPass(const Scene& scene, const LightTracer& light_
       trace_(trace_for(sampler)) {}
 
 std::uint64_t LightTracingPass::path_count(double mean) const {
-  constexpr double least = 16; // so that no point set of a picture of few samples goes without
+  constexpr double least = 16; // so that every point set of an image with few samples has light paths
   return static_cast<std::uint64_t>(std::llround(std::max(least, mean * per_sample())));
 }
 
@@ -32,7 +33,7 @@ LightTracingPass::PixelChoice LightTracingPass::sample_pixel(double at, Float u,
   const double here = std::floor(at);
   filter_.profile(at - here - 0.5, profile);
   const double sum = std::accumulate(profile.begin(), profile.end(), 0.0);
-  if (!(sum > 0)) return {0, 0}; // between pixels, by a filter that is narrower than they are
+  if (!(sum > 0)) return {0, 0}; // the filter is narrower than a pixel, and the point lies between pixels
   const mc::ShortDiscrete<double, most_pixels> share(profile);
   const auto chosen = static_cast<int>(share.sample_index(double(u)).index);
   return {static_cast<int>(here) + chosen - filter_.reach(), sum};
@@ -90,7 +91,8 @@ std::uint64_t LightTracingPass::add_paths(std::uint64_t from, std::uint64_t to, 
   return from;
 }
 
-// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+// After the definition of the functions that it names: clang 14 does not instantiate functions that only a later lambda
+// names.
 LightTracingPass::Trace LightTracingPass::trace_for(PixelSampler sampler) {
   return with_stream(
       sampler, []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTracingPass::trace<Stream>; });

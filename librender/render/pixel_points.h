@@ -1,5 +1,5 @@
 #pragma once
-/// Where the samples of pixels start: their places in point sets, and their rays.
+/// Points and camera rays of the samples of pixels.
 
 #include <render/integrator/medium_stack.h>
 #include <render/scene/scene.h>
@@ -14,13 +14,19 @@
 
 namespace render {
 
-/// Point sets for a pixel's samples.
-enum class PixelSampler { independent, stratified, sobol };
-/// Throws Error, naming the nearest sampler, for an unknown name.
+/// Kinds of point sets for the samples of a pixel.
+enum class PixelSampler {
+  independent, ///< Independent random points.
+  stratified,  ///< Stratified points.
+  sobol        ///< Randomised Sobol' points.
+};
+/// The sampler with this name.
+///   throws : Error, with the nearest name, for an unknown name.
 PixelSampler sampler_from(std::string_view name);
+/// The name of a sampler.
 std::string_view name(PixelSampler sampler);
 
-/// Calls task(std::type_identity<Stream>()) with the streams of a sampler's points, and returns what it does.
+/// Calls task(std::type_identity<Stream>()) with the stream type of a sampler, and returns its result.
 template <class Task> auto with_stream(PixelSampler sampler, const Task& task) {
   switch (sampler) {
   case PixelSampler::independent: break;
@@ -30,35 +36,36 @@ template <class Task> auto with_stream(PixelSampler sampler, const Task& task) {
   return task(std::type_identity<mc::IndependentPathStream<Float>>());
 }
 
-/// A part of a picture, from the pixel (x, y), counted from the upper left corner.
+/// A rectangle of pixels. (x, y) is its top left pixel, counted from the top left corner of the image.
 struct Crop {
-  int x = 0, y = 0, width = 0, height = 0;
+  int x = 0, y = 0, width = 0, height = 0; ///< Position and size [pixels].
 };
 
-/// A picture of which a film shows a part.
+/// The size of an image, and the part that a film contains.
 struct ImageExtent {
-  int width, height;
-  Crop crop;
+  int width, height; ///< Size of the full image [pixels].
+  Crop crop;         ///< Part in the film.
 };
 
-/// The points of a picture's pixels, each a pure function of the seed, the pixel and the number of its sample. Those of
-/// a pixel are dealt in turn to its point sets, which are randomised independently: sample k is point k / sets of set
-/// k % sets. A stratified set that is longer than `set_size` points goes on with another.
+/// Points of the samples of all pixels. Each point is a pure function of the seed, the pixel and the sample number. The
+/// samples of a pixel are dealt in turn to its independently randomised point sets: sample k is point
+/// k / sets of set k % sets. After `set_size` points a stratified set continues with another randomisation.
 struct PixelPoints {
-  PixelSampler sampler;
-  std::uint64_t seed;
-  std::uint32_t set_size; ///< of sets that are not stratified 2^31
+  PixelSampler sampler;   ///< Kind of point sets.
+  std::uint64_t seed;     ///< Seed of the randomisations.
+  std::uint32_t set_size; ///< Number of points of a stratified set; 2^31 for other samplers.
 
+  /// Points of a sampler kind and seed; `points` is the size of stratified sets.
   PixelPoints(PixelSampler kind, std::uint64_t own_seed, std::uint32_t points)
       : sampler(kind), seed(own_seed), set_size(kind == PixelSampler::stratified ? points : 1u << 31) {}
 
-  /// Points that follow each other, of one randomisation.
+  /// Consecutive points of one randomisation.
   struct PointRange {
-    std::uint32_t pass; ///< the randomisation
-    std::uint32_t begin, end;
+    std::uint32_t pass;       ///< Number of the randomisation.
+    std::uint32_t begin, end; ///< Points [begin, end).
   };
 
-  /// Calls task(run) for the runs of the set that the samples [first, last) of a pixel belong to.
+  /// Calls task(range) for the ranges of points in point set `set` that belong to the samples [first, last) of a pixel.
   template <class Task>
   void for_ranges(std::uint32_t set, std::uint32_t sets, std::uint32_t first, std::uint32_t last,
                   const Task& task) const {
@@ -71,30 +78,32 @@ struct PixelPoints {
     }
   }
 
-  /// The points of a run, for the pixel (x, y) of the whole picture.
+  /// The point set of a range, for the pixel (x, y) of the full image.
   template <class Points> Points point_set(int x, int y, const PointRange& range) const {
     const std::uint64_t pixel = std::uint64_t(std::uint32_t(y)) << 32 | std::uint32_t(x);
     return Points(mc::hash(seed, pixel, range.pass), set_size);
   }
 };
 
-/// The rays of a scene's camera through the pixels of a picture. The scene must outlive it.
+/// Camera rays through the pixels of an image. The scene must outlive this.
 class PixelRays {
  public:
+  /// Prepares the camera rays of an image.
   PixelRays(const Scene& scene, const ImageExtent& extent)
       : scene_(scene), scale_(1 / Float(extent.width), 1 / Float(extent.height)),
         tan_half_(scene.camera().tan_half(Float(extent.width) / Float(extent.height))),
         media_(initial_media(scene, {scene.camera().origin(), scene.camera().forward()})),
         media_vary_(has_media(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)) {}
 
-  /// Through the point at `offset` from the centre of the pixel (x, y) of the whole picture [pixels].
+  /// A camera ray at an offset from the centre of pixel (x, y) of the full image [pixels].
   template <class Stream> Ray sample(int x, int y, const Vec2& offset, Stream& stream) const {
     const ThinLens& camera = scene_.camera();
     const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale_);
     return camera.ray(s, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
   }
 
-  /// Through what a ray starts. A lens, or what is cut away before it, may reach out of the body that holds its centre.
+  /// Media at the origin of a ray. They may differ from the media at the camera if the lens or the near plane extends
+  /// out of a body.
   MediumStack media(const Ray& ray) const { return media_vary_ ? initial_media(scene_, ray) : media_; }
 
  private:

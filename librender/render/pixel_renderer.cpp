@@ -79,7 +79,8 @@ RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t>
   return stats;
 }
 
-// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+// After the definition of the functions that it names: clang 14 does not instantiate functions that only a later lambda
+// names.
 PixelRenderer::RenderRow PixelRenderer::render_row_for(PixelSampler sampler) {
   return with_stream(sampler, []<class Stream>(std::type_identity<Stream>) -> RenderRow {
     return &PixelRenderer::render_row_with<Stream>;

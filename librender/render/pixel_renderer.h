@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of pixels.
+/// Rendering of pixels.
 
 #include <render/film/splat_accumulator.h>
 #include <render/integrator/path_integrator.h>
@@ -9,7 +9,7 @@
 
 namespace render {
 
-// Compiled once: who follows paths through a Scene need not.
+// Compiled once, in pixel_renderer.cpp: other files that trace paths through a Scene need not instantiate them.
 extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
                                                          const MediumStack&) const;
 extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
@@ -17,29 +17,32 @@ extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::Stratif
 extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
                                                          const MediumStack&) const;
 
-/// What was done, in how many samples and rays.
+/// Counts of samples and rays.
 struct RenderStats {
-  std::uint64_t samples = 0, rays = 0;
-  std::uint64_t invalid = 0;   ///< samples that were not finite
-  InvalidSample first_invalid; ///< of them, in the order of passes, rows, columns and indices
+  std::uint64_t samples = 0, rays = 0; ///< Number of samples and of rays.
+  std::uint64_t invalid = 0;           ///< Number of samples that were not finite.
+  InvalidSample first_invalid;         ///< The first of them, in the order of passes, rows, columns and indices.
 
+  /// Counts an invalid sample.
   void add(const InvalidSample& sample);
+  /// Adds other counts.
   void merge(const RenderStats& other);
 };
 
-/// The samples of a picture's pixels, by PixelPoints. The pixels of a part are those of the whole.
+/// Renders the samples of pixels with points of PixelPoints. A crop has the same pixels as the full image.
 class PixelRenderer {
  public:
-  /// splat       : by which samples count for several pixels; unless given, each for one, from the scene's filter
-  /// light_tracer : see PathIntegrator
+  /// Prepares the rendering of a scene, which must outlive this.
+  ///   splat        : filter of splatting; none: each sample counts for one pixel.
+  ///   light_tracer : as for PathIntegrator.
   PixelRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
                 const std::optional<SplatFilter>& splat = {}, const LightTracer* light_tracer = nullptr);
 
-  /// Rows above and below the film, and columns at its sides, of which samples count for its pixels.
+  /// Width of the border around the film with samples that count for its pixels [pixels].
   int border() const { return splat_ ? splat_->reach() : 0; }
 
-  /// Adds to the film the samples [from[x], to[x]) of the pixels of its row y, the first of them `border` to the left
-  /// of it; what is not finite is left out. Writes to the rows within `border` of y.
+  /// Adds the samples [from[x], to[x]) of the pixels of row y to the film. The row begins `border()` pixels to the left
+  /// of the film. Samples that are not finite are left out and counted. Writes to rows within `border()` of y.
   RenderStats render_row(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
                          Film& film) const {
     return (this->*render_row_)(y, from, to, film);

@@ -47,7 +47,7 @@ ImageExtent extent_of(const RenderOptions& options) {
                   c.y <= options.height - c.height,
               "render: a crop of {}x{} pixels at ({}, {}) is not inside a picture of {}x{}", c.width, c.height, c.x,
               c.y, options.width, options.height);
-  constexpr double most = 1 << 28; // their sums take 60 GB, and 37 more where there are light paths
+  constexpr double most = 1 << 28; // the sums of a film then take about 100 GB
   mc::require(double(c.width) * double(c.height) <= most,
               "render: {}x{} pixels are more than {:.0f}; ask for a smaller picture or a part of it", c.width, c.height,
               most);
@@ -55,13 +55,13 @@ ImageExtent extent_of(const RenderOptions& options) {
 }
 
 constexpr int point_sets = 2;
-constexpr double least_pilot = 16; ///< samples per pixel
+constexpr double least_pilot = 16; ///< Least number of samples per pixel of a pilot.
 
 bool is_adaptive(const RenderOptions& options) {
   return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
 }
 
-// Unless a filter is so narrow that nothing is shared.
+// None for a filter so narrow that pixels share nothing.
 std::optional<SplatFilter> splat_filter_for(const Scene& scene, const RenderOptions& options) {
   if (!options.splat) return {};
   const SplatFilter filter(scene.filter());
@@ -74,17 +74,17 @@ std::optional<LightTracer> light_tracer_for(const Scene& scene, const RenderOpti
   return LightTracer::create(scene, options.strategy, Float(options.width) / Float(options.height));
 }
 
-// Points of a stratified set: all where it is known how many there will be.
+// Number of points of a stratified set: all points of a pixel's set if their number is known in advance.
 std::uint32_t set_size_of(const RenderOptions& options) {
   const bool known = !options.seconds && !options.target_error && !is_adaptive(options);
   return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
 }
 
-// Rows of which the film has no sample repeat the nearest that has some. Returns how many they are.
+// Rows without samples repeat the nearest row with samples. Returns the number of such rows.
 int repeat_rows(const Film& film, Image& image) {
   std::vector<int> rendered;
   for (int y = 0; y < image.height; ++y)
-    if (film.rays(0, y) > 0) rendered.push_back(y); // there is no sample without a ray
+    if (film.rays(0, y) > 0) rendered.push_back(y); // every sample takes at least one ray
   if (rendered.empty()) return image.height;
   for (int y = 0; y < image.height; ++y) {
     const auto below = std::lower_bound(rendered.begin(), rendered.end(), y);
@@ -95,7 +95,7 @@ int repeat_rows(const Film& film, Image& image) {
   return image.height - static_cast<int>(rendered.size());
 }
 
-/// A render under way.
+/// A render in progress.
 class RenderJob {
  public:
   RenderJob(const Scene& scene, const RenderOptions& options)
@@ -138,9 +138,9 @@ class RenderJob {
   double elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
   bool limited() const { return options_.seconds || options_.target_error; }
   bool cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
-  // The first round is always whole.
+  // The first round is always completed.
   bool out_of_time() const { return options_.seconds && mean_ > 0 && elapsed() >= *options_.seconds; }
-  // With the border, whose samples count for the picture.
+  // Including the border, with samples that count for the image.
   std::size_t height() const { return static_cast<std::size_t>(extent_.crop.height) + 2 * border(); }
   std::size_t width() const { return static_cast<std::size_t>(extent_.crop.width) + 2 * border(); }
   std::size_t border() const { return static_cast<std::size_t>(pixel_renderer_.border()); }
@@ -156,8 +156,9 @@ class RenderJob {
                         .independent_samples = options_.sampler == PixelSampler::independent}};
   }
 
-  // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part. In a
-  // turn the next row lies amidst the widest gap, so that a first round that is cancelled has seen all of the picture.
+  // Runs `task` once for every row. Rows that write to common pixels run in different turns, in an order that does not
+  // depend on the crop. Within a turn, each row is in the middle of the widest gap, so that a cancelled first round
+  // covers the whole image.
   template <class Task> void for_rows(Task&& task) const {
     const std::size_t turns = 2 * border() + 1;
     for (std::size_t turn = 0; turn < turns; ++turn) {
@@ -170,8 +171,9 @@ class RenderJob {
     }
   }
 
-  // Gives every pixel what the plan says for a mean of `mean` samples. Returns whether all rows were done. Splats count
-  // if all were, or it is the first round of two sets, which then tell what a pixel lacks of the samples about it.
+  // Extends every pixel to its number of samples for a mean of `mean`. Returns whether all rows were finished. With
+  // splats, an unfinished round is discarded. The exception is the first round with two sets: they correct for missing
+  // splats of neighbours.
   bool extend_to(double mean, double wanted) {
     std::vector<RenderStats> row_stats(height());
     std::vector<std::uint32_t> taken = taken_;
@@ -188,7 +190,8 @@ class RenderJob {
     };
     const std::uint64_t all_light =
         light_tracing_pass_ ? light_tracing_pass_->path_count(mean * plan_.light_path_scale) : 0;
-    // Before the first rows there are but a few, so that these begin soon: light of any number of paths is unbiased.
+    // Before the first rows only a few light paths are traced, so that the rows start soon. Any number of light paths
+    // is unbiased.
     add_light_paths(mean_ == 0 ? std::min(all_light, LightTracingPass::batch_size) : all_light);
     for_rows([&](std::size_t y) {
       if (stop()) return;
@@ -216,7 +219,7 @@ class RenderJob {
     return is_whole;
   }
 
-  // How many samples per pixel the whole takes, as far as can be told.
+  // Estimated number of samples per pixel at the end of the render.
   double wanted() const {
     if (mean_ == 0 || !limited()) return options_.spp;
     const double by_time = options_.seconds ? mean_ * *options_.seconds / elapsed() : mc::infinity<double>;
@@ -228,8 +231,8 @@ class RenderJob {
     return is_sure ? by_error : std::max(by_error, 2 * mean_);
   }
 
-  // How far a round goes: twice as far; not beyond what is known to suffice, and where that is only estimated
-  // three quarters of the way there.
+  // Number of samples per pixel at the end of the next round: doubled, but at most `wanted`. If `wanted` is an
+  // estimate, the round covers about three quarters of the rest.
   double end_of_round(double wanted, bool is_pilot) const {
     if (mean_ == 0) return film_.sets();
     double rest = wanted - mean_;
@@ -243,7 +246,7 @@ class RenderJob {
       const double wanted = this->wanted();
       partial_ = mean_ < wanted && !out_of_time();
       if (!partial_ || cancelled()) return;
-      if (is_pilot && mean_ >= least_pilot && mean_ >= wanted / 6) { // rounds double: about a quarter
+      if (is_pilot && mean_ >= least_pilot && mean_ >= wanted / 6) { // rounds double, so the pilot is about a quarter
         plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_scope, options_.threads,
                               tile_renderer_ ? tile_renderer_->tiling() : Tiling{});
         is_pilot = false;
@@ -251,7 +254,7 @@ class RenderJob {
       const double mean = end_of_round(wanted, is_pilot);
       if (!extend_to(mean, wanted)) continue;
       mean_ = mean;
-      if (!options_.target_error && !options_.progress) continue; // nobody asks
+      if (!options_.target_error && !options_.progress) continue; // the error is not needed
       error_ = film_.relative_errors().of(options_.error_scope);
       outlier_dominated_ = film_.outlier_dominated();
       const bool is_there = options_.target_error && error_.value <= *options_.target_error;
@@ -270,14 +273,14 @@ class RenderJob {
   std::optional<TileRenderer> tile_renderer_;
   std::optional<LightTracingPass> light_tracing_pass_;
   Film film_;
-  std::vector<std::uint32_t> taken_; ///< samples of every pixel
+  std::vector<std::uint32_t> taken_; ///< Number of samples of every pixel.
   SamplingPlan plan_;
-  std::uint64_t light_done_ = 0; ///< paths from the lights
-  double mean_ = 0;              ///< samples per pixel of the rounds that are done
+  std::uint64_t light_done_ = 0; ///< Number of finished light paths.
+  double mean_ = 0;              ///< Samples per pixel after the finished rounds.
   RenderStats total_;
-  RelativeError error_;              ///< after the last round
-  double outlier_dominated_ = 0;     ///< at the same time
-  double unreliable_target_spp_ = 0; ///< see RenderResult
+  RelativeError error_;              ///< Error after the last round.
+  double outlier_dominated_ = 0;     ///< Outlier-dominated pixels after the last round.
+  double unreliable_target_spp_ = 0; ///< See RenderResult.
   bool partial_ = true;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::clock_t cpu_start_ = std::clock();

@@ -1,5 +1,5 @@
 #pragma once
-/// From a scene to an image with an error bar.
+/// Rendering of a scene into an image with error bars.
 
 #include <render/pixel_renderer.h>
 
@@ -9,69 +9,77 @@
 
 namespace render {
 
+/// Progress of a render.
 struct Progress {
-  double fraction = 0; ///< of the work, in [0,1]
-  std::uint64_t samples = 0, rays = 0;
-  double seconds = 0;
-  double relative_error = 0;    ///< of what the options ask for, see Film; infinite while unknown
-  double outlier_dominated = 0; ///< as in RenderResult, when the error was last known
+  double fraction = 0;                 ///< Share of the work that is done, in [0,1].
+  std::uint64_t samples = 0, rays = 0; ///< Number of samples and of rays so far.
+  double seconds = 0;                  ///< Time since the start [s].
+  double relative_error = 0;           ///< Error in the scope of the options; see Film. Infinite while unknown.
+  double outlier_dominated = 0;        ///< Share of outlier-dominated pixels at the last estimate of the error.
 };
 
-/// While a larger share of the pixels is undecided, a picture has not reached a target error.
+/// Largest share of outlier-dominated pixels with which an image may reach a target error.
 inline constexpr double max_outlier_dominated = 0.05;
 
+/// Largest number of branches of a path.
 inline constexpr int max_branches = 1024;
 
+/// Options of a render.
 struct RenderOptions {
-  int width = 256, height = 256;
-  std::optional<Crop> crop;           ///< only this part; spent evenly, its pixels are the whole's, bit for bit
-  int spp = 64;                       ///< samples per pixel, unless one of the next two, or both, are given
-  std::optional<double> seconds;      ///< wall-clock budget [s]
-  std::optional<double> target_error; ///< what RelativeError::bound is to fall to, see Film; and most_undecided
-  ErrorScope error_scope = ErrorScope::image;
-  std::optional<bool> adaptive; ///< samples where the error is; unless given: where seconds or an error are
-  Strategy strategy = strategy_from("mis+lt");
-  PixelSampler sampler = PixelSampler::sobol;
-  bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
-  bool tiles = false; ///< pixels share paths by tiles, see PathReuseIntegrator
-  int max_depth = -1; ///< longest path in edges; -1: no limit
-  int branches = 2;   ///< see PathOptions; tiles share instead
-  Aov aov = Aov::radiance;
-  std::uint64_t seed = 0;
-  int threads = 0;                               ///< 0: all of the machine's
-  std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once
-  const std::atomic<bool>* cancel = nullptr;     ///< set it to stop after the rows under way
+  int width = 256, height = 256; ///< Size of the full image [pixels].
+  /// Part to render; none: all. Without adaptive sampling its pixels have the same bits as in the full image.
+  std::optional<Crop> crop;
+  int spp = 64;                       ///< Samples per pixel; ignored if `seconds` or `target_error` is given.
+  std::optional<double> seconds;      ///< Wall-clock limit [s].
+  std::optional<double> target_error; ///< Upper limit of RelativeError::bound, together with max_outlier_dominated.
+  ErrorScope error_scope = ErrorScope::image; ///< Pixels over which the error is averaged.
+  std::optional<bool> adaptive; ///< Whether to sample adaptively; by default with `seconds` or `target_error`.
+  Strategy strategy = strategy_from("mis+lt"); ///< How paths find light.
+  PixelSampler sampler = PixelSampler::sobol;  ///< Point sets of pixels.
+  bool splat = false;      ///< Samples count for all pixels under the filter (SplatFilter). Not adaptive.
+  bool tiles = false;      ///< Pixels share paths in tiles; see PathReuseIntegrator.
+  int max_depth = -1;      ///< Largest number of edges of a path; -1: no limit.
+  int branches = 2;        ///< Number of branches as in PathOptions; tiles do not use it.
+  Aov aov = Aov::radiance; ///< Quantity to render.
+  std::uint64_t seed = 0;  ///< Seed of all random numbers.
+  int threads = 0;         ///< Number of threads; 0: all of the machine.
+  std::function<void(const Progress&)> progress; ///< Called after every row by any thread, also concurrently.
+  const std::atomic<bool>* cancel = nullptr;     ///< Stops the render after the current rows once it is true.
 };
 
+/// Image and statistics of a render.
 struct RenderResult {
-  Image image;                         ///< with variance where every pixel has two point sets or more
-  std::uint64_t samples = 0, rays = 0; ///< samples of the pixels; rays of light paths, too
-  double spp = 0;                      ///< samples per pixel taken, on average
-  std::uint32_t estimates = 0;         ///< independent point sets per pixel behind the variance
-  double seconds = 0, cpu_seconds = 0;
-  double relative_error = 0;    ///< see RelativeError::value
-  double worst_error = 0;       ///< the same of the worst block
-  double outlier_dominated = 0; ///< share of the pixels whose error bar is not known yet, see Film::undecided
-  double unreliable_target_spp =
-      0;                     ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
-  std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
-  InvalidSample first_invalid;
-  bool partial = false;     ///< cancelled before the end
-  bool out_of_time = false; ///< before the target error was reached
-  int missing_rows = 0;     ///< of the image, cancelled in the first round: they repeat the nearest that was rendered
+  Image image;                         ///< Image, with variances if every pixel has at least two point sets.
+  std::uint64_t samples = 0, rays = 0; ///< Number of samples of pixels, and number of rays including light paths.
+  double spp = 0;                      ///< Mean number of samples per pixel.
+  std::uint32_t estimates = 0;         ///< Number of independent point sets per pixel behind the variance.
+  double seconds = 0, cpu_seconds = 0; ///< Wall-clock time and CPU time [s].
+  double relative_error = 0;           ///< RelativeError::value of the image.
+  double worst_error = 0;              ///< RelativeError::value of the worst block.
+  double outlier_dominated = 0;        ///< Share of pixels with an unreliable error bar; see Film::outlier_dominated.
+  /// Samples per pixel at which the target error was reached with too many outlier-dominated pixels; 0: never.
+  double unreliable_target_spp = 0;
+  std::uint64_t invalid = 0;   ///< Number of samples that were not finite; the image leaves them out.
+  InvalidSample first_invalid; ///< The first of them.
+  bool partial = false;        ///< Whether the render was cancelled before the end.
+  bool out_of_time = false;    ///< Whether the time ended before the target error was reached.
+  /// Number of rows without samples after cancellation in the first round; they repeat the nearest rendered row.
+  int missing_rows = 0;
 };
 
-/// Renders in rounds, which double the samples of every pixel, so that a picture interrupted after the first, two
-/// samples per pixel, is whole and has its variance. Interrupted before, it has none; rows are taken far from each
-/// other, and those that are missing repeat the nearest. A pixel's samples are dealt to two point sets, independently
-/// randomised, so that the variance between them is honest for low-discrepancy points too; more sets would be
-/// shorter, which costs accuracy, and tell of a pixel what its neighbours tell as well. Light paths, where the
-/// strategy has some, are as many as belong to the mean number of samples, and dealt to the sets as well.
-/// Where samples go where the error is, about the first quarter is a pilot, spent evenly, which alone decides about the
-/// rest, light paths too: see adaptive_plan.
-/// The result depends on the seed, not on the number of threads; with `seconds` it depends on the machine's speed.
-///   throws : Error for a non-positive size, sample count, time or error, and a crop that reaches beyond the picture,
-///            and for a strategy that cannot find every light of the scene, see finds_all_lights
+/// Renders a scene. For the same seed the result has the same bits for any number of threads. With `seconds` it depends
+/// on the speed of the machine.
+///   rounds  : each round doubles the samples of every pixel. After the first round, of two samples per pixel, the
+///             image is complete and has variances. Cancelled in the first round, it has no variances, and missing rows
+///             repeat the nearest rendered row. Rows are rendered far from each other to keep such gaps small.
+///   point sets : the samples of a pixel are dealt to two independently randomised point sets. The variance between
+///                sets is valid for low-discrepancy points. More sets would be shorter and less accurate, and
+///                neighbouring pixels already add estimates of the variance.
+///   light paths : their number belongs to the mean number of samples per pixel. They are dealt to the point sets, too.
+///   adaptive : about the first quarter is an even pilot, which alone determines all later rates; see adaptive_plan().
+///   throws  : Error for a size, sample count, time or error that is not positive. Error for a crop that is not inside
+///             the image. Error for options that exclude each other, and for a depth or number of branches out of range.
+///             Error for a strategy that cannot find every light of the scene (finds_all_lights).
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 } // namespace render

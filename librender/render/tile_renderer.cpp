@@ -81,7 +81,8 @@ void TileRenderer::render_range(const PixelPoints::PointRange& range, std::array
   }
 }
 
-// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+// After the definition of the functions that it names: clang 14 does not instantiate functions that only a later lambda
+// names.
 TileRenderer::RenderRow TileRenderer::render_row_for(PixelSampler sampler) {
   return with_stream(sampler, []<class Stream>(std::type_identity<Stream>) -> RenderRow {
     return &TileRenderer::render_row_with<Stream>;

@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of tiles of pixels.
+/// Rendering of tiles of pixels.
 
 #include <render/film/sampling_plan.h>
 #include <render/integrator/path_reuse.h>
@@ -7,23 +7,24 @@
 
 namespace render {
 
-/// The samples of a picture's pixels, by PixelPoints, taken by tiles: those of all its pixels together, see
-/// PathReuseIntegrator. Tiles lie where they do in the whole picture, and the pixels of a part are those of the whole.
+/// Renders the samples of pixels in tiles; see PathReuseIntegrator. Points are from PixelPoints. Tiles are aligned to
+/// the full image, and a crop has the same pixels as the full image.
 class TileRenderer {
  public:
-  /// light_tracer : see PathIntegrator
-  ///   throws    : Error where something else than radiance is to be shown
+  /// Prepares the rendering of a scene, which must outlive this.
+  ///   light_tracer : as for PathIntegrator.
+  ///   throws       : Error if path.aov is not radiance.
   TileRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
                const LightTracer* light_tracer = nullptr);
 
-  /// Whether tiles begin at the film's row y; those that begin above it do at its first.
+  /// Whether tiles begin at row y of the film. Tiles that begin above the film count as beginning at row 0.
   bool starts_tile_row(int y) const { return y == 0 || (extent_.crop.y + y) % side == 0; }
 
-  /// Where the film's pixels lie in their tiles.
+  /// Position of the film's pixels in their tiles.
   Tiling tiling() const { return {side, extent_.crop.x % side, extent_.crop.y % side}; }
 
-  /// Adds to the film the samples [from[x], to[x]) of all pixels of the tiles that begin at its row y, of each of which
-  /// x is the first column; what is not finite is left out.
+  /// Adds the samples of the tiles that begin at row y to the film. The pixels of a tile have the samples [from[x],
+  /// to[x]), where x is the tile's first column. Samples that are not finite are left out and counted.
   RenderStats render_row(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
                          Film& film) const {
     return (this->*render_row_)(y, from, to, film);
@@ -33,13 +34,13 @@ class TileRenderer {
   static constexpr int side = PathReuseIntegrator<Scene>::side;
   static constexpr std::size_t pixels = PathReuseIntegrator<Scene>::pixels;
 
-  /// Of a tile.
+  // A pixel of a tile.
   struct Pixel {
-    int x, y;    ///< in the whole picture
-    bool counts; ///< it is one of the film's
+    int x, y;    ///< Position in the full image
+    bool counts; ///< Whether the film contains the pixel
     SampleSums sums = {};
-    Eigen::Array3d sum = Eigen::Array3d::Zero(); ///< of the set under way
-    std::uint32_t valid = 0;                     ///< samples of it
+    Eigen::Array3d sum = Eigen::Array3d::Zero(); ///< Sum of the current set
+    std::uint32_t valid = 0;                     ///< Number of finite samples in the current set
   };
 
   using RenderRow = RenderStats (TileRenderer::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>,

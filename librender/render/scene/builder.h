@@ -1,36 +1,43 @@
 #pragma once
-/// How a scene is put together.
+/// Construction of scenes.
 
 #include <render/scene/scene.h>
 
 namespace render {
 
-/// Collects what a reader finds and makes the Scene of it. What is added is right by its own constructor.
+/// Collects surfaces, lights, camera and filter, and builds a Scene. The constructors of the parts check them.
 class SceneBuilder {
  public:
+  /// Adds a material without mask.
   BsdfId add(Bsdf bsdf) { return add(Material(std::move(bsdf))); }
+  /// Adds a material with texture and without mask.
   BsdfId add(TexturedBsdf bsdf) { return add(Material(std::move(bsdf))); }
+  /// Adds a material.
   BsdfId add(Material material);
 
+  /// Properties of a surface besides its shape.
   struct SurfaceProperties {
-    BsdfId bsdf;
-    std::optional<Emission> emission = {};
-    bool importance_target = false; ///< see Surface
-    std::optional<HomogeneousMedium> interior = {};
-    std::string missing_uv_reason = {}; ///< why the shape has no texture coordinates, for messages
+    BsdfId bsdf;                                    ///< Material, from add().
+    std::optional<Emission> emission = {};          ///< Emission; none: the surface does not emit.
+    bool importance_target = false;                 ///< See Surface.
+    std::optional<HomogeneousMedium> interior = {}; ///< See Surface.
+    std::string missing_uv_reason = {}; ///< Reason why the shape has no texture coordinates, for error messages.
   };
-  /// throws : Error for a BSDF that was not added, a texture on a shape that has no texture coordinates, a mask on one
-  ///          that shines, or what AreaLight refuses
+  /// Adds a surface.
+  ///   throws : Error for an unknown BSDF, a texture on a shape without texture coordinates, a mask on a surface that
+  ///            emits or has an interior medium, or a shape or emission that AreaLight rejects.
   void add(Shape shape, const SurfaceProperties& properties);
 
-  /// A light that is no surface.
+  /// Adds a light without a shape.
   void add(Light light);
 
+  /// Sets the camera.
   void set(const ThinLens& camera) { camera_ = camera; }
+  /// Sets the pixel filter.
   void set(const Filter& filter) { filter_ = filter; }
 
-  /// The scene of all that was added; the builder is empty afterwards.
-  ///   throws : Error when there is neither a shape nor an infinite light
+  /// Builds the scene of all parts. The builder is empty afterwards.
+  ///   throws : Error if there is neither a shape nor an infinite light.
   Scene build();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether Float can hold a scene.
+/// Resolution of scene coordinates in Float.
 
 #include <render/scene/scene.h>
 
@@ -9,26 +9,28 @@
 
 namespace render {
 
-/// How coarse the coordinates of a surface's points are beside its size.
+/// Resolution of the coordinates of a surface, relative to its size.
 struct FloatResolution {
-  double size = 0;     ///< the diagonal of its bounds [scene units]
-  double distance = 0; ///< the largest coordinate in these
-  double step = 0;     ///< from one Float there to the next
-  double ratio = 0;    ///< step / size; infinite where nothing is left of it
+  double size = 0;     ///< Diagonal of the bounding box [scene units].
+  double distance = 0; ///< Largest absolute coordinate of the bounding box.
+  double step = 0;     ///< Distance to the next Float at this coordinate.
+  double ratio = 0;    ///< step / size; infinite for size 0.
 };
 
-/// Of the coarsest surface of a scene; all 0 where there is none.
+/// Resolution of the surface with the largest ratio; all 0 without surfaces.
 FloatResolution coarsest_resolution(const Scene& scene);
 
-/// From this ratio on carlo warns: rounding moves the corners of a surface by a thousandth of its size, and so what it
-/// lights or shades by about as much.
+/// carlo warns above this ratio: rounding moves the corners of a surface by a thousandth of its size. Its light and
+/// shadow move by about as much.
 inline constexpr double max_resolution_ratio = 1e-3;
 
-/// Lengths whose squares a Float holds with all of its digits: areas, and densities of points on lamps.
+/// Shortest length with a normal Float as its square. Areas and the densities of points on lights need such squares.
 inline const double min_length = std::sqrt(double(std::numeric_limits<Float>::min()));
+/// Longest length with a finite Float as its square.
 inline const double max_length = std::sqrt(double(std::numeric_limits<Float>::max()));
 
-/// The diagonal of a lamp's bounds that is below the least, or of all surfaces' that is above the most; none: neither.
+/// A length outside [min_length, max_length]: the diagonal of a light's bounds if it is too short, or the diagonal of
+/// all surfaces' bounds if it is too long. None if there is no such length.
 std::optional<double> length_out_of_range(const Scene& scene);
 
 } // namespace render

@@ -1,5 +1,5 @@
 #pragma once
-/// What a renderer sees of a scene.
+/// Scenes, as renderers use them.
 
 #include <render/accel/bvh.h>
 #include <render/bsdf/bsdf.h>
@@ -16,47 +16,57 @@
 
 namespace render {
 
-/// A BSDF of a scene, as SceneBuilder::add names it.
+/// Index of a material in a scene, from SceneBuilder::add.
 enum class BsdfId : std::uint32_t {};
 
-/// A BSDF, or one that varies, and how much of it is there.
+/// A BSDF, possibly textured, with an optional mask.
 struct Material {
-  Bsdf bsdf;                                   ///< where a texture varies it, one of its kind
-  std::shared_ptr<const TexturedBsdf> texture; ///< null: it is the same everywhere
-  std::shared_ptr<const Mask> mask;            ///< null: all of it is there
+  Bsdf bsdf;                                   ///< The BSDF; if `texture` is given, a BSDF of the same kind.
+  std::shared_ptr<const TexturedBsdf> texture; ///< Variation over the surface; null: none.
+  std::shared_ptr<const Mask> mask;            ///< Mask of opacity; null: opaque.
 
+  /// An opaque material without texture.
   Material(Bsdf b) : bsdf(std::move(b)) {}
+  /// An opaque material with texture.
   Material(TexturedBsdf t) : bsdf(t.untextured()), texture(std::make_shared<const TexturedBsdf>(std::move(t))) {}
+  /// Whether the material needs texture coordinates.
   bool needs_uv() const { return texture || (mask && mask->varies()); }
 };
 
-/// A shape with what covers it.
+/// A shape with its material and its role in the scene.
 struct Surface {
+  /// The shape.
   std::shared_ptr<const Shape> shape;
+  /// Its material.
   BsdfId bsdf;
-  std::optional<std::uint32_t> light;             ///< the light that it is; none: it does not shine
-  bool importance_target = false;                 ///< the scene asks strategies that aim at lights to aim at it too
-  std::optional<HomogeneousMedium> interior = {}; ///< on the side that its normals do not point to; none on the other
+  std::optional<std::uint32_t> light; ///< Index of the area light of this shape; none: it does not emit.
+  bool importance_target = false;     ///< Whether strategies with targets also aim at this shape.
+  /// Medium on the side opposite to the normals; the other side is empty.
+  std::optional<HomogeneousMedium> interior = {};
 };
 
-/// Surfaces, lights, camera and filter of a picture, and the tables to look them up. Made by SceneBuilder, immutable,
-/// so threads share it.
+/// Surfaces, lights, camera and filter of a scene, with acceleration structures. SceneBuilder makes scenes. Immutable,
+/// so threads can share it.
 class Scene {
  public:
-  /// The nearest surface that a ray meets, and its point there.
+  /// The nearest hit of a ray, regardless of masks.
   std::optional<Hit> intersect(const Ray& ray) const { return bvh_.intersect(ray); }
+  /// The surface point at a hit.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const {
     return surface(hit).shape->surface_point(ray, hit);
   }
+  /// Whether any surface is on the ray up to its t_max, regardless of masks.
   bool occluded(const Ray& ray) const { return bvh_.occluded(ray); }
-  /// Of all surfaces; empty where there are none.
+  /// Bounds of all surfaces; empty if there are none.
   const Bounds& bounds() const { return bvh_.bounds(); }
 
+  /// All surfaces.
   std::span<const Surface> surfaces() const { return surfaces_; }
+  /// The surface of a hit.
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
-  /// What covers a surface; of a texture only its kind, the rest varies.
+  /// The BSDF of a surface; for a textured surface a BSDF of the same kind.
   const Bsdf& bsdf(const Surface& surface) const { return material(surface).bsdf; }
-  /// What covers it where it was hit, at `point`; made in `bsdf_storage` where a texture varies it.
+  /// The BSDF of a surface at the hit `point`. `bsdf_storage` holds it if a texture varies it.
   const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point,
                    std::optional<Bsdf>& bsdf_storage) const {
     const Material& m = material(surface);
@@ -64,9 +74,9 @@ class Scene {
       return m.bsdf;
     return bsdf_storage.emplace(m.texture->at(surface.shape->uv(hit, point)));
   }
-  /// Whether rays pass through parts of surfaces; visibility.h follows them.
+  /// Whether some surface has a mask. Rays then need visibility.h.
   bool has_masks() const { return has_masks_; }
-  /// How much of a surface is there where it was hit, at `point`, in [0, 1].
+  /// Opacity of a surface at the hit `point`, in [0, 1].
   Float opacity(const Hit& hit, const SurfacePoint& point) const {
     const Surface& s = surface(hit);
     const auto& mask = material(s).mask;
@@ -74,17 +84,22 @@ class Scene {
     return mask->opacity(mask->varies() ? s.shape->uv(hit, point) : Vec2d::Zero());
   }
 
+  /// All lights.
   std::span<const Light> lights() const { return lights_; }
-  /// Indices of the lights that shine where a ray leaves the scene.
+  /// Indices of the lights that emit along rays that leave the scene.
   std::span<const std::uint32_t> infinite_lights() const { return infinite_lights_; }
-  /// Whether there are lights to connect to. Then sample_light picks one for the point ref, as LightSampler says.
+  /// Whether there are lights for next-event estimation. sample_light() and light_pmf() require this.
   bool has_light_sampler() const { return light_sampler_.has_value(); }
+  /// Selects a light for the reference point `ref`; see LightSampler.
   mc::DiscreteSample<Float> sample_light(const Vec3& ref, Float u) const {
     return light_sampler_->sample_index(lights_, ref, u);
   }
+  /// Probability of selecting a light for the reference point `ref`.
   Float light_pmf(const Vec3& ref, std::size_t light) const { return light_sampler_->pmf(lights_, ref, light); }
 
+  /// The camera.
   const ThinLens& camera() const { return camera_; }
+  /// The pixel filter.
   const Filter& filter() const { return filter_; }
 
  private:

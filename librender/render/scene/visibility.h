@@ -1,18 +1,18 @@
 #pragma once
-/// What rays meet where masks let a part of them through.
+/// Rays through surfaces with masks.
 
 #include <render/scene/scene.h>
 
 namespace render {
 
-/// What is left of a ray beyond a point that it met.
+/// The rest of a ray beyond a hit at `point`.
 inline Ray continue_past(const Ray& ray, const Hit& hit, const SurfacePoint& point) {
   Ray rest = point.spawn_ray(ray.d);
   rest.t_max = ray.t_max - Float(hit.t);
   return rest;
 }
 
-// What few scenes need stays out of the code that all of them run.
+// Loops over masks are separate functions, since few scenes need them.
 namespace detail {
 
 template <class SceneType, class Passes>
@@ -48,11 +48,10 @@ template <class SceneType>
 
 } // namespace detail
 
-/// The nearest surface that a ray meets and does not pass; the ray then starts where it passed the last one.
-///   passes(opacity) : whether it passes a surface of this opacity, in [0, 1)
-///   rays            : counts those traced
-/// A mask decides what is seen, not how light scatters: what passes one is the same edge of a path, and weighs the same
-/// beside what is sampled otherwise, as if nothing had been there.
+/// The nearest hit that the ray does not pass. `ray` becomes the rest of the ray beyond the last passed surface.
+///   passes(opacity) : returns whether the ray passes a surface of this opacity, in [0, 1).
+///   rays            : counts the rays traced.
+/// A mask affects visibility, not scattering. A passed surface adds no vertex to the path and changes no MIS weight.
 template <class SceneType, class Passes>
 std::optional<Hit> nearest_hit(const SceneType& scene, Ray& ray, std::uint64_t& rays, const Passes& passes) {
   if (scene.has_masks()) [[unlikely]]
@@ -61,8 +60,10 @@ std::optional<Hit> nearest_hit(const SceneType& scene, Ray& ray, std::uint64_t& 
   return scene.intersect(ray);
 }
 
-/// The share of light that arrives along a ray, which ends at `end` if that is given: the product of what masks let
-/// through; 0 where anything else is in the way.
+/// Share of light that arrives along a ray: the product of 1 - opacity over the surfaces on its way; 0 if one of them
+/// is opaque.
+///   end : surface point at which the ray ends; none: ray.t_max is the end.
+///   rays : counts the rays traced.
 template <class SceneType>
 Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::optional<SurfacePoint>& end,
                            std::uint64_t& rays) {
