@@ -1,6 +1,6 @@
-// One table of all the speeds of libmc: ns per item of processor time (median over the repetitions), as a multiple of
-// pcg32 in the same run, which is what machines are compared by, and of batch forms ("name/n") how often faster they
-// are.
+// Prints one table of all speeds of libmc: CPU time per item [ns], the median over the repetitions. The table also
+// gives the time as a multiple of pcg32 in the same run, to compare machines. For batch forms ("name/n") it gives the
+// speed-up.
 #include "speed.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,7 @@ class Table : public benchmark::BenchmarkReporter {
   struct Row {
     std::vector<double> ns;
     double aim = 0;
-    std::int64_t rank = 0; ///< in the order of registration
+    std::int64_t rank = 0; ///< order of registration
   };
 
   double median(const std::string& name) const {
@@ -61,8 +61,7 @@ class Table : public benchmark::BenchmarkReporter {
 } // namespace
 
 int main(int argc, char** argv) {
-  // Repetitions of all benchmarks are shuffled, so that a slow minute of the machine does not fall on one of them
-  // alone.
+  // Shuffles the repetitions of all benchmarks, so that a temporarily slow machine affects all of them.
   std::vector<std::string> words{argv[0], "--benchmark_repetitions=9", "--benchmark_min_time=0.02",
                                  "--benchmark_enable_random_interleaving=true"};
   words.insert(words.end(), argv + 1, argv + argc);

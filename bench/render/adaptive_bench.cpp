@@ -1,17 +1,18 @@
-/// What samples where the error is and tiles that share paths gain, and whether they stay true: even and adaptive
-/// spending, both with tiles too, in turn, as CSV on stdout.
+/// Measures efficiency and bias of adaptive sampling and of tiles that share paths. Renders with uniform and adaptive
+/// sampling, each also with tiles, alternately. Prints CSV to stdout.
 /// Usage: bench_render_adaptive SCENE.xml... [-- SEEDS [SIZE [SPP [REFERENCE_SPP]]]]
-///   relmse     : mean of (x - reference)^2 / (reference^2 + 0.01) over pixels, channels and seeds, less what the
-///                noise of the reference adds
-///   relative_error: root of the mean square over seeds of what the pictures say of theirs, see Film
-///   gain       : CPU seconds times relmse of even spending over those of this one, and its standard error
-///   z_mean, z_sd: of the pictures' mean radiance against the reference's, by their own error bars; a standard error
-///                of z_mean is 1 / sqrt(SEEDS), and sqrt(SPP / REFERENCE_SPP) of it is the reference's, of z_sd
-///                1 / sqrt(2 SEEDS). Of tiles the noise of the mean is stated too large, up to twice
-///   picture    : mean over pixels of the squared difference of the mean picture to that of even spending, in green,
-///                over its variance:
-///                1 where they show the same
-///   held       : share of 95 % intervals of pixels that hold the reference
+///   relmse     : mean of (x - reference)^2 / (reference^2 + 0.01) over pixels, channels and seeds, minus the noise of
+///                the reference.
+///   relative_error: root mean square over seeds of the error that the images state, see Film.
+///   gain       : CPU time times relmse of uniform sampling, divided by the same product of this row; and its standard
+///                error.
+///   z_mean, z_sd: z-scores of the mean radiance of the images against the reference, by their own error bars. z_mean
+///                 has a standard error of 1 / sqrt(SEEDS) and a common error of sqrt(SPP / REFERENCE_SPP) from the
+///                 reference. z_sd has a standard error of 1 / sqrt(2 SEEDS). With tiles the stated noise of the mean
+///                 is up to twice too large.
+///   picture    : squared difference of the mean image to the mean image of uniform sampling, divided by its variance.
+///                Mean over the pixels, in green. 1 if both have the same expectation.
+///   held       : share of 95 % intervals of pixels that contain the reference.
 
 #include "arguments.h"
 
@@ -39,12 +40,13 @@ double square_error(const Image& image, const Image& truth) {
   return sum / (3.0 * double(truth.pixels.size()));
 }
 
-// Of the mean over all pixels and channels.
+// z-score of the mean over all pixels and channels.
 double z_score(const Image& image, const Image& truth) {
   double off = 0, variance = 0;
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     off += (image.pixels[i] - truth.pixels[i]).cast<double>().sum();
-    // Channels of a pixel vary together: the standard error of their sum is at most the sum of theirs, and nearly so.
+    // The channels of a pixel are correlated. The standard error of their sum is at most, and nearly, the sum of their
+    // standard errors.
     variance += image.noise_area * mc::sqr(image.variance[i].cast<double>().sqrt().sum()) +
                 mc::sqr(truth.variance[i].cast<double>().sqrt().sum());
   }
@@ -98,7 +100,7 @@ void show(const std::string& path, int seeds, int size, int spp, int reference_s
   options.spp = spp;
   std::array<Spending, 4> all = {{{"even"}, {"adaptive"}, {"tiles"}, {"adaptive tiles"}}};
   const Spending& even = all[0];
-  for (std::size_t i = 0; i < all.size() * std::size_t(seeds); ++i) { // in turn, each with its own seeds
+  for (std::size_t i = 0; i < all.size() * std::size_t(seeds); ++i) { // alternately, each with its own seeds
     const std::size_t way = i % all.size();
     options.seed = i;
     options.adaptive = way % 2 == 1;

@@ -1,5 +1,5 @@
 #pragma once
-/// SCENE.xml... [-- NUMBER...], as benches of pictures take them.
+/// Command line arguments of rendering benchmarks: SCENE.xml... [-- NUMBER...].
 
 #include <cstdlib>
 #include <cstring>

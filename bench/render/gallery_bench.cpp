@@ -1,10 +1,11 @@
-/// Whether the error bars of small pictures of the gallery's scenes are true, by every sampler, as CSV on stdout.
+/// Tests the error bars of small images of the gallery scenes with every sampler. Prints CSV to stdout.
 /// Usage: bench_render_gallery [NAME...] [-- SEEDS [SPP [SIDE [REFERENCE_SPP]]]]
-///   outlier_dominated : share of pixels that one sample decides, see RenderResult; the mean of the seeds
-///   z_mean, z_sd : of the pictures' mean green against the reference's, by both their error bars; the standard error
-///                  of the mean is z_sd / sqrt(SEEDS), of normal z that of the deviation 1 / sqrt(2 SEEDS)
-///   missed    : share of 95 % intervals, 1.96 standard errors to each side, that do not hold the reference
-///   ratio, ratio_error : mean of all seeds over the reference, and its standard error
+///   outlier_dominated : share of pixels dominated by one sample, see RenderResult; mean over the seeds.
+///   z_mean, z_sd : z-scores of the mean green of the images against the reference, by the error bars of both. The
+///                  standard error of z_mean is z_sd / sqrt(SEEDS). For normal z, the standard error of z_sd is 1 /
+///                  sqrt(2 SEEDS).
+///   missed    : share of 95 % intervals, 1.96 standard errors to each side, that do not contain the reference.
+///   ratio, ratio_error : mean over all seeds divided by the reference, and its standard error.
 
 #include "arguments.h"
 
@@ -35,7 +36,7 @@ struct Green {
   }
 };
 
-// Rounding of floats apart, what has no noise is off by nothing.
+// An image without noise must equal the reference up to the rounding of floats.
 double z_of(const Green& green, const Green& truth) {
   const double error = std::sqrt(green.variance + truth.variance), off = green.mean - truth.mean;
   return std::abs(off) <= 1e-6 * std::abs(truth.mean) && error == 0 ? 0 : off / error;
@@ -63,7 +64,7 @@ void show(const carlo::GalleryScene& gallery_scene, int seeds, int spp, int side
     mc::Moments z, mean, outlier_dominated;
     double missed = 0;
     for (int seed = 0; seed < seeds; ++seed) {
-      options.seed = mc::hash(place, sampler, seed); // no two rows by the same points
+      options.seed = mc::hash(place, sampler, seed); // no two rows use the same points
       const RenderResult result = render::render(file.scene, options);
       const Green green(result.image);
       z.add(z_of(green, truth));

@@ -1,10 +1,11 @@
-/// What the error bars of pixels are worth: the share of 95 % intervals that hold the truth, as CSV on stdout.
+/// Measures the coverage of pixel error bars: the share of 95 % intervals that contain the truth. Prints CSV to stdout.
 /// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
-///   way    : even, splat (where the filter is wider than a pixel), tiles, or mis (without paths from the lights)
-///   alone  : by the pixel's own variance, Student's t with 1 degree of freedom
-///   shared : half_widths
-///   noisy  : half_widths in the tenth of the pixels and channels whose variance in the reference is largest
-///   low, high : intervals that lie below and above the truth
+///   way    : even, splat (if the filter is wider than a pixel), tiles, or mis (without light paths).
+///   alone  : intervals from the variance of the pixel alone, Student's t with 1 degree of freedom.
+///   shared : intervals from interval_half_widths.
+///   noisy  : intervals from interval_half_widths for the tenth of all pixels and channels with the largest variance in
+///            the reference.
+///   low, high : share of intervals below and above the truth.
 
 #include "arguments.h"
 
@@ -34,7 +35,7 @@ struct Coverage {
   std::string text() const { return fmt::format("{:.4f},{:.4f},{:.4f}", 1 - (low + high) / n, low / n, high / n); }
 };
 
-// Which values of the image are among the tenth of largest variance.
+// Marks the values of the image in the top tenth by variance.
 std::vector<Eigen::Array<bool, 3, 1>> noisiest_tenth(const Image& image) {
   std::vector<Float> variances;
   for (const Spectrum& v : image.variance) variances.insert(variances.end(), v.begin(), v.end());

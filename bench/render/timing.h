@@ -1,5 +1,5 @@
 #pragma once
-/// What tables of render's speed are made with.
+/// Helpers for timing tables of librender.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,8 @@
 
 namespace bench {
 
-/// Seconds so far: CLOCK_PROCESS_CPUTIME_ID or CLOCK_THREAD_CPUTIME_ID of CPU time, CLOCK_MONOTONIC by the clock.
+/// Time [s] on a clock: CLOCK_PROCESS_CPUTIME_ID or CLOCK_THREAD_CPUTIME_ID for CPU time, CLOCK_MONOTONIC for
+/// wall-clock time.
 inline double seconds_by(clockid_t clock) {
   timespec t;
   clock_gettime(clock, &t);

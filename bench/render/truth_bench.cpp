@@ -1,11 +1,11 @@
-/// Pictures of scenes made by machine, by every unbiased strategy and sampler, against what they should be: a row of
-/// CSV for each on stdout; on stderr how often the z-scores are as large as chance makes them.
-/// Usage: bench_render_truth [FAMILIES [SEED [SETS [POINTS [FIRST]]]]], the families from FIRST on
-///   should : the closed form; where its error is not 0 the mean of the family's first picture by mis, of eight times
-///            as many sets
-///   z      : see z_score in measure.h
-///   state  : decided; undecided; dark where no light was found; rare where a strategy that meets lights by chance
-///            expects to meet the smallest less than 100 times
+/// Renders random scenes with every unbiased strategy and sampler and compares them with the expected radiance. Prints
+/// one row of CSV per picture to stdout, and statistics of the z-scores to stderr.
+/// Usage: bench_render_truth [FAMILIES [SEED [SETS [POINTS [FIRST]]]]], starting with family FIRST
+///   should : the closed form. If its error is not 0, the mean of the first picture of the family by mis, with eight
+///            times the number of sets.
+///   z      : see z_score in measure.h.
+///   state  : decided; undecided; dark if no light was found; or rare. It is rare if a strategy hits lights only by
+///            chance and expects fewer than 100 hits of the smallest one.
 
 #include "truth/measure.h"
 
@@ -48,8 +48,8 @@ struct RenderSetup {
   std::string name() const { return std::string(strategy.name) + (in_tile ? " tiles" : ""); }
 };
 
-// All that find what there is but those of pictures, not of rays; tiles, which share the same in every strategy, by
-// three.
+// All strategies that estimate single rays without light paths. Paths shared in tiles are independent of the strategy,
+// so three strategies suffice for them.
 std::vector<RenderSetup> ways() {
   std::vector<RenderSetup> all;
   for (const Strategy& strategy : strategies)
@@ -84,7 +84,7 @@ struct Run {
     for (const Picture& picture : family.pictures)
       for (const RenderSetup& way : ways())
         for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
-          // Of what must look like the first, each way meets one sampler in turn.
+          // In all pictures but the first of a family, each setup uses one sampler in turn.
           if (&picture != &family.pictures[0] && ++turn % 3 != 0) continue;
           const Measured m =
               measure(picture, way.strategy, sampler, mc::hash(seed, estimates++), sets, points, way.in_tile);

@@ -1,4 +1,4 @@
-// What a parallel loop costs beside its work: tasks of some 50 us each, by all threads. By the clock.
+// Overhead of a parallel loop: tasks of some 50 us each, with all threads. Wall-clock time.
 #include <mc/core/parallel.h>
 
 #include <benchmark/benchmark.h>

@@ -1,4 +1,4 @@
-// Random numbers: pcg32, the yardstick of all other benchmarks, uniform numbers from it, and hashed ones.
+// Random numbers: pcg32 (the unit of all other benchmarks), uniform numbers from it, and hashed numbers.
 #include "../../speed.h"
 
 namespace {

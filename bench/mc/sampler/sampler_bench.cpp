@@ -1,4 +1,4 @@
-// Points by random access, and runs of points in one dimension; scalar float.
+// Points by random access, and sequences of points in one dimension; scalar float.
 #include "../../speed.h"
 
 #include <mc/sampler/halton.h>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// Points of the first 65536 in a scattered order, as pixels and paths ask for them.
+// The first 65536 points in scattered order, as pixels and paths access them.
 template <class F> void points(benchmark::State& state, double aim, const F& point) {
   std::uint32_t i = 0;
   for ([[maybe_unused]] const auto _ : state) {

@@ -1,5 +1,5 @@
-// Tables with 524288 entries of which one holds a sixth of the weight; scalar float,
-// u from pcg32 so that no cell stays in the cache by itself.
+// Tables with 524288 entries, one of which has a sixth of the weight; scalar float. u comes from pcg32, so that no cell
+// stays in the cache by itself.
 #include "../../speed.h"
 
 #include <mc/table/alias_table.h>

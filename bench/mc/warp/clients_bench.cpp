@@ -1,4 +1,4 @@
-// What a renderer takes from libmc, against the same written out by hand: a warp must not cost more than its formula.
+// Warps as a renderer uses them, compared with handwritten code: a warp must not cost more than its formula.
 #include "../../speed.h"
 
 #include <mc/estimate/mis.h>
@@ -72,7 +72,7 @@ void balls_and_spheres() {
     return std::cbrt(u[1]) *
            mc::spherical_direction<float>(2 * mc::safe_sqrt<float>(u[0] * (1 - u[0])), z, 2 * pi * u[1]);
   });
-  // Made anew at each point, in double as the shapes compute, with the density that goes with the direction.
+  // Constructed at each point, in double as in the shapes, with the density of the direction.
   const auto toward = [](const Vec2<float>& u) { return Vec3<double>(u[0], u[1], 5); };
   measure("SphereLight, made anew", [toward](const Vec2<float>& u) {
     const mc::SphereLight<double> light(toward(u), 1);

@@ -1,5 +1,5 @@
-// A table, not a timing alone: our fan of two triangles against the parametrisation of Urena et al. 2013
-// as published, float over 50 digits.
+// A table of accuracy and time: the fan of two triangles against the parametrization of Urena et al. 2013 as published,
+// float against 50 digits.
 #include <mc/check/subject/oracle.h>
 #include <mc/random/pcg.h>
 #include <mc/warp/spherical_rectangle.h>
@@ -14,7 +14,8 @@ namespace {
 
 using namespace mc;
 
-// Solid angle from the internal angles less 2 pi; u0 cuts it by azimuth, u1 is linear in the sine of the height.
+// The solid angle is the sum of the internal angles minus 2 pi. u0 cuts it by azimuth; the sine of the height is linear
+// in u1.
 template <class S> class Urena {
  public:
   Urena(const Vec3<S>& corner, const Vec3<S>& edge1, const Vec3<S>& edge2)
@@ -56,7 +57,7 @@ template <class S> class Urena {
   S z0_, x0_, y0_, x1_, y1_, b0_, b1_, k_, solid_angle_;
 };
 
-// Worst error of sample over 1000 points.
+// Largest error of sample over 1000 points.
 template <class W, class O> double worst(const W& warp, const O& exact) {
   Pcg random(1);
   double most = 0;

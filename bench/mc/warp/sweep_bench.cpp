@@ -1,5 +1,5 @@
-// A table, not a timing: every warp and table at thousands of random parameters over its whole legal range, its worst
-// errors in epsilons and as multiples of the bounds it states. Arguments: trials per row, points per trial, seed,
+// A table of accuracy: every warp and table at thousands of random parameters over its whole legal range. Reports the
+// worst errors in epsilons and as multiples of the stated bounds. Arguments: trials per row, points per trial, seed,
 // family.
 #include "sweep/sweep.h"
 
@@ -7,7 +7,7 @@
 #include <string_view>
 
 namespace {
-// Its worst error in epsilons and as a multiple of the bound.
+// The worst error in epsilons and as a multiple of the bound.
 std::string text_of(const sweep::Law& l) {
   if (l.points == 0) return "-";
   return fmt::format("{:.3g} ({:.2g}{})", l.eps, l.worst, l.broken ? " !" : "");

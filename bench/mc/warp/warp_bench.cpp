@@ -1,6 +1,5 @@
-// Warps: sample, or sample and density, of points made beforehand; scalar float unless a name says double. "made anew":
-//        with the
-// construction for each sample, as a renderer pays it at each new point of a surface.
+// Speed of warps: sample, or sample and density, at precomputed points; scalar float unless a name says double. "made
+// anew" includes the construction for each sample, as a renderer constructs a warp at each surface point.
 #include "../../speed.h"
 
 #include <mc/warp/cone.h>
@@ -17,7 +16,7 @@ namespace {
 
 using mc::Vec3;
 
-// make(u) gives the warp to sample at u.
+// make(u) returns the warp to sample at u.
 template <class S, class F> void measure(const std::string& name, double aim, bool with_pdf, F make) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
     const auto points = bench::random_points<S>();

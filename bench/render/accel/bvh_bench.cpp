@@ -1,10 +1,11 @@
-/// Our rays beside those of Embree 3 (rtcIntersect1, rtcOccluded1, default build, fast mode): one thread, one ray per
-/// call, the same rays, in turn in one run. A table on stdout.
-/// Usage: bench_render_accel_bvh [SCENE.xml...] [-- SIDE [ROUNDS]], pictures of SIDE x SIDE pixels
-///   Mrays/s : of ours, by the thread's CPU time, the median of the rounds
-///   /Embree : our rate over Embree's, the median of the rounds' ratios
-///   build   : ns per primitive of both by all threads, of CPU time and by the clock, the medians of the rounds
-///   bytes   : per primitive, of tree and of shapes
+/// Compares ray tracing with Embree 3 (rtcIntersect1, rtcOccluded1, default build, fast mode). One thread traces one
+/// ray per call. Both trace the same rays, alternately in one run. Prints a table to stdout.
+/// Usage: bench_render_accel_bvh [SCENE.xml...] [-- SIDE [ROUNDS]], images of SIDE x SIDE pixels
+///   Mrays/s : our rate by the CPU time of the thread, the median of the rounds.
+///   /Embree : our rate divided by Embree's, the median of the ratios of the rounds.
+///   build   : build time of both [ns per primitive] with all threads, CPU time and wall-clock time, medians of the
+///             rounds.
+///   bytes   : memory per primitive, of the tree and of the shapes.
 
 #include "../arguments.h"
 #include "../timing.h"
@@ -28,7 +29,7 @@ std::size_t allocated() {
   return m.uordblks + m.hblkhd;
 }
 
-/// How long something takes by all threads: seconds of CPU time, and by the clock.
+/// Duration of a task with all threads: CPU time and wall-clock time [s].
 struct Durations {
   std::vector<double> cpu, clock;
 
@@ -43,7 +44,7 @@ struct Durations {
   }
 };
 
-/// Embree's scene of a world.
+/// The Embree scene of a world.
 class Peer {
  public:
   Peer(RTCDevice device, const World& world, Durations& build)
@@ -117,7 +118,7 @@ class Peer {
   RTCGeometry geometry_;
 };
 
-/// CPU seconds of `trace` on all rays, and how many of them it says yes to.
+/// CPU time of `trace` on all rays [s], and the number of rays for which it returns true.
 template <class Trace> double seconds_of(const std::vector<Ray>& rays, std::size_t& hits, const Trace& trace) {
   hits = 0;
   const double start = seconds_by(CLOCK_THREAD_CPUTIME_ID);

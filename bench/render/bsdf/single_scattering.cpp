@@ -1,4 +1,4 @@
-// How much light rough surfaces keep whose facets scatter it once: the albedo of materials that absorb nothing, as CSV.
+// Energy loss of rough surfaces with single scattering: the albedo of materials that absorb nothing, as CSV.
 //
 //   bench_render_single_scattering [POINTS] > notebooks-data/single-scattering/albedo.csv
 

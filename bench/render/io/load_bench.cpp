@@ -1,8 +1,9 @@
-/// How fast meshes load: bumpy grids with normals, of a file system's cache. A table on stdout.
+/// Measures how fast meshes load: bumpy grids with normals, with files in the file system cache. Prints a table to
+/// stdout.
 /// Usage: bench_render_io_load [-- TRIANGLES [ROUNDS]]
-///   read  : seconds of the reader, the median of the rounds; CPU seconds of all threads behind it
-///   shape : CPU seconds of to_shape
-///   MB/s  : of the file, by the reader's seconds
+///   read  : wall-clock time of the reader [s], the median of the rounds, followed by the CPU time of all threads.
+///   shape : CPU time of to_shape [s].
+///   MB/s  : size of the file divided by the wall-clock time of the reader.
 
 #include "../arguments.h"
 #include "../timing.h"
@@ -36,7 +37,7 @@ struct Grid {
   std::size_t triangles() const { return indices.size() / 3; }
 };
 
-// A square of bumps with about `triangles` triangles.
+// A bumpy square of about `triangles` triangles.
 Grid grid(int triangles) {
   const int side = std::max(1, static_cast<int>(std::sqrt(triangles / 2.0)));
   Grid g;
@@ -89,12 +90,12 @@ void write_ply(const Grid& g, const std::string& path) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// One mesh, version 4: magic and version, the mesh compressed, the offsets of all meshes, their count.
+// One mesh, version 4: magic number and version, the compressed mesh, the offsets of all meshes, their count.
 void write_serialized(const Grid& g, const std::string& path) {
   constexpr std::uint32_t has_normals = 1, single = 0x1000;
   std::string mesh;
   append(mesh, has_normals | single);
-  mesh.push_back('\0'); // its name
+  mesh.push_back('\0'); // the name of the mesh
   append(mesh, std::uint64_t{g.vertices()});
   append(mesh, std::uint64_t{g.triangles()});
   append(mesh, g.positions.data(), g.positions.size());

@@ -13,7 +13,7 @@ namespace render::truth {
 
 namespace {
 
-// pixel(numbers, i, seed) : the radiance that a pixel gets by point i of a set, of this seed
+// pixel(numbers, i, seed) : the radiance of a pixel for point i of a set with this seed
 template <class Stream, class Pixel>
 Measured of_sets(std::uint64_t seed, std::uint32_t sets, std::uint32_t points, const Pixel& pixel) {
   Measured found;
@@ -44,7 +44,8 @@ Measured measure_with(const Picture& picture, const PathOptions& path, std::uint
   });
 }
 
-// The ray of a pixel of the tile: the picture's, or one up to 30 degrees away, as near as far.
+// The ray of a pixel of the tile. Pixel 0 has the ray of the picture. The others deviate by up to 30 degrees, with a
+// log-uniform distribution.
 Ray beside(const Ray& ray, std::uint64_t seed, std::uint32_t pixel) {
   if (pixel == 0) return ray;
   mc::Pcg random(seed, pixel);

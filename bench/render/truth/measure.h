@@ -1,5 +1,5 @@
 #pragma once
-/// The radiance of a picture by any strategy and sampler, and how far it is from the truth.
+/// Estimates the radiance of a picture with any strategy and sampler, and its deviation from the truth.
 
 #include "scenes.h"
 
@@ -10,19 +10,19 @@
 namespace render::truth {
 
 struct Measured {
-  mc::Moments means;              ///< of independently randomised point sets
-  bool outlier_dominated = false; ///< see SampleSums
+  mc::Moments means;              ///< Means of independently randomized point sets.
+  bool outlier_dominated = false; ///< See SampleSums.
 };
 
-/// `sets` sets of `points` points each.
-///   in_tile : its paths share with those of three pixels beside it, see PathReuseIntegrator, whose rays lead up to 30
-///             degrees away, other ones in every set
+/// Estimates the radiance with `sets` sets of `points` points each.
+///   in_tile : shares paths with three neighbouring pixels, see PathReuseIntegrator. Their rays deviate by up to 30
+///             degrees and differ in every set.
 Measured measure(const Picture& picture, const Strategy& strategy, PixelSampler sampler, std::uint64_t seed,
                  std::uint32_t sets, std::uint32_t points, bool in_tile = false);
 
-/// How many standard errors `measured` is off what it should be: those of a normal variable that is as improbable as
-/// Student's t. `rounding` bounds what rounding to Float may do, as three standard errors. 0 where the measured is
-/// undecided or no light was found at all.
+/// Deviation of `measured` from `should` in standard errors. It is the normal quantile with the same probability as the
+/// Student t statistic. `rounding` bounds the rounding to Float and counts as three standard errors. Returns 0 if the
+/// estimate is dominated by one sample or no light was found.
 double z_score(const Measured& measured, double should, double its_error, double its_dof, double rounding);
 
 } // namespace render::truth

@@ -28,13 +28,13 @@ Vec3d in_cube(mc::Pcg& random, double half) {
 Transform turn(mc::Pcg& random) { return Transform::rotate(direction(random), uniform(random, 0, 360)); }
 Spectrum gray(double v) { return Spectrum::Constant(Float(v)); }
 
-/// A sphere, square or cube of half size 1 under a similarity.
+/// A sphere, square or cube of half size 1, transformed by a similarity.
 struct Thing {
   enum class Form { sphere, square, cube } form;
   Transform place;
   Bsdf bsdf;
   double radiance = 0;
-  bool inward = false; ///< the normals of a sphere
+  bool inward = false; ///< Whether the normals of a sphere point inward.
 };
 
 double size_of(const Transform& similarity) { return std::cbrt(std::abs(similarity.linear.determinant())); }
@@ -83,7 +83,7 @@ Picture picture(const std::vector<Thing>& things, double sky, const Vec3d& eye, 
           std::move(variant)};
 }
 
-// Squares facing inward on all sides of the cube of half size 1; y is up.
+// Squares that face inward on all sides of the cube of half size 1; y is up.
 std::vector<Transform> sides() {
   std::vector<Transform> found;
   for (int axis = 0; axis < 3; ++axis)
@@ -94,8 +94,8 @@ std::vector<Transform> sides() {
   return found;
 }
 
-// Half of the polygon's projected solid angle by Lambert's formula: (1/2 pi) sum of angle_i cos(normal, edge plane i);
-// the part below the horizon is cut off. Points are relative to where it is seen from.
+// Projected solid angle of a polygon divided by pi, by Lambert's formula: (1/2 pi) sum of angle_i cos(normal, edge
+// plane i). Clips the part below the horizon. Points are relative to the receiver.
 double form_factor(const std::vector<Vec3d>& corners, const Vec3d& n) {
   std::vector<Vec3d> above;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -136,8 +136,8 @@ Family furnace(mc::Pcg& random) {
   if (around == 2)
     for (const Transform& side : sides())
       things.push_back({Thing::Form::square, Transform::scale({4, 4, 4}) * side, wall, shine, false});
-  // Apart from each other and the eye: within glass everything should send out eta^2, and behind a surface nothing
-  // does.
+  // Objects are apart from each other and from the eye. Radiance inside glass would be scaled by eta^2, and emission
+  // behind a surface would be lost.
   const Vec3d eye = in_cube(random, 1.4);
   std::vector<std::pair<Vec3d, double>> taken = {{eye, 0}};
   for (std::size_t n = 1 + below(random, 5); n > 0; --n) {
@@ -169,10 +169,10 @@ Family direct_light(mc::Pcg& random) {
        Bsdf(Lambert(gray(1))), 0, false}};
   const Vec3d up(0, 1, 0), eye = Vec3d(0, unit * 1e-3, 0);
   const std::size_t wanted = std::array<std::size_t, 4>{1, 2, 6, 40}[below(random, 4)];
-  std::vector<Cone> taken = {{up, 1e-2}}; // where the eye is
+  std::vector<Cone> taken = {{up, 1e-2}}; // position of the eye
   double truth = sky, rarest = 1;
   for (int tries = 0; tries < 2000 && taken.size() <= wanted; ++tries) {
-    // Under a sky lights are so large that samples enough meet the dark between.
+    // Under a sky, lights are large, so that enough samples hit the dark space between them.
     const double distance = unit * log_uniform(random, 1e-1, 1e3),
                  angle = log_uniform(random, sky > 0 ? 0.1 : 1e-4, 0.3);
     Vec3d w = direction(random);
@@ -182,7 +182,7 @@ Family direct_light(mc::Pcg& random) {
         std::any_of(taken.begin(), taken.end(), [&](const Cone& c) { return c.meets(cone); }))
       continue;
     taken.push_back(cone);
-    // As strong as to matter, or nearly nothing.
+    // Either strong enough to matter, or nearly negligible.
     const double radiance = log_uniform(random, 1e-3, 1) / mc::sqr(std::sin(angle)), size = distance * std::sin(angle);
     double share = mc::sqr(std::sin(angle)) * w.y();
     if (below(random, 2) == 0) {
@@ -216,7 +216,7 @@ Family room(mc::Pcg& random) {
   for (std::size_t n = 1 + below(random, 3); n > 0; --n) {
     const double size = uniform(random, 0.1, 0.4);
     Vec3d at = in_cube(random, 0.5);
-    at.y() = 0.98 - 0.02 * double(n); // no two in one plane
+    at.y() = 0.98 - 0.02 * double(n); // at different heights, so no two are coplanar
     things.push_back(
         {Thing::Form::square,
          Transform::translate(at) * Transform::rotate({1, 0, 0}, 90) * Transform::scale({size, size, size}),

@@ -96,7 +96,7 @@ template <class S> void add_exponentials(std::vector<Row>& rows, const std::stri
         const double k = std::abs(d(w.rate)) * d(w.length);
         return [=](auto, auto x) {
           const double t = std::abs(d(w.rate)) * (w.rate < 0 ? d(w.length) - d(x) : d(x));
-          const double shift = w.rate < 0 ? k : t; // of the rounding of x
+          const double shift = w.rate < 0 ? k : t; // from the rounding of x
           return Bounds{.sample = 16,
                         .pdf = 16 + 2 * t + 2 * shift,
                         .invert = std::max(16.0, w.rate < 0 ? k : 0),
@@ -147,7 +147,7 @@ template <class S> void add_bells(std::vector<Row>& rows, const std::string& sca
         const double least = std::min(d(w.scale), d(w.hi) - d(w.lo));
         const double stretch = std::max(1.0, std::max(std::abs(d(w.lo)), std::abs(d(w.hi))) / least);
         return [=](auto, auto x) {
-          const double inner = d(w.lo) >= 0 ? d(w.lo) : std::min(d(w.hi), 0.0); // the end next to 0, or 0 inside
+          const double inner = d(w.lo) >= 0 ? d(w.lo) : std::min(d(w.hi), 0.0); // the end nearest to 0, or 0 inside
           return Bounds{
               .sample = 16, .pdf = 8 + 2 * std::abs(d(x) - inner) / d(w.scale), .invert = 8 * stretch, .scale = least};
         };

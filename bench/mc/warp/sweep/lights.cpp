@@ -1,4 +1,4 @@
-// Planar lights seen from anywhere: inside and outside their outline, next to their plane, far away, slivers.
+// Planar lights for random viewers: inside and outside the outline, near the plane, far away, slivers.
 #include "sweep.h"
 
 #include <mc/core/frame.h>
@@ -17,7 +17,7 @@ template <class S> struct RandomPatch {
 
   explicit RandomPatch(Draw& r) {
     const double size = r.log(1e-3, 1e3), height = size * r.log(1e-6, 1e3);
-    // In the plane first: a random angle, a ratio of edges up to 1e3, and the foot of the viewer somewhere about.
+    // First in the plane: a random angle, a ratio of edges up to 1e3, and a random foot point of the viewer.
     const double length = size * r.log(1e-3, 1), angle = r.often(0.3) ? std::numbers::pi / 2 : 0.05 + 3 * r.u();
     const Vec3d e1(size, 0, 0), e2(length * std::cos(angle), length * std::sin(angle), 0);
     double s = 3 * r.u() - 1, t = 3 * r.u() - 1;
@@ -38,8 +38,8 @@ template <class S> struct RandomPatch {
   std::string text() const {
     return fmt::format("{} {} {}", detail::text(corner), detail::text(edge1), detail::text(edge2));
   }
-  /// By how much the farthest corner exceeds the height of the viewer over the plane, and the longest edge the height
-  /// of the patch on it.
+  /// Flatness as in spherical_triangle.h: farthest corner divided by the height of the viewer above the plane, plus
+  /// longest edge divided by the height of the patch on it.
   double flatness() const {
     const mc::Vec3<mc::Oracle> o = mc::cast_point<mc::Oracle>(corner), e1 = mc::cast_point<mc::Oracle>(edge1),
                                e2 = mc::cast_point<mc::Oracle>(edge2);
@@ -64,7 +64,7 @@ template <class S, template <class> class W> Row patch(const std::string& name, 
       },
       [&flat](const W<S>&) {
         const double loss = std::same_as<S, float> ? 1 + 1e-9 * flat * flat : flat;
-        // The inverse has tests of its own: its conditioning depends on the shape.
+        // The inverse is tested separately: its conditioning depends on the shape.
         return
             [=](const auto&, const auto&) { return Bounds{.sample = 32 * loss, .pdf = 16 * loss, .invert = HUGE_VAL}; };
       });

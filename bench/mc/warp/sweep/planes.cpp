@@ -14,7 +14,7 @@ namespace {
 
 double d(const auto& x) { return static_cast<double>(x); }
 
-// Of an annulus: 0, near the outer radius, or anywhere between.
+// Inner radius of an annulus: 0, near the outer radius, or anywhere in between.
 template <class S> S inner_radius(Draw& r, S outer) {
   if (r.often(0.2)) return S(0);
   if (r.often(0.5)) return S(outer * (1 - r.log(1e-18, 1)));
@@ -25,7 +25,7 @@ template <class S> mc::Vec3<S> vector_of_length(Draw& r, double length) {
   return mc::Vec3<S>(r.direction<S>() * S(length));
 }
 
-// 0, or about as far away as the parallelogram is large, or anywhere.
+// Origin of a parallelogram: 0, at a distance of about its size, or anywhere.
 template <class S> mc::Vec3<S> origin(Draw& r, double size) {
   if (r.often(0.5)) return mc::Vec3<S>(0, 0, 0);
   return vector_of_length<S>(r, r.often(0.5) ? size : r.log(denormal<S>, largest<S>));
@@ -98,7 +98,7 @@ template <class S> void add_densities(std::vector<Row>& rows, const std::string&
         return mc::Bilinear<S>(w[0], w[1], w[2], w[3]);
       },
       [](const auto&) {
-        // The conditional depends on y, whose own rounding moves x; the oracle has another y.
+        // The conditional density depends on y, so the rounding of y moves x, and the oracle has a different y.
         return [](auto, auto) { return Bounds{.sample = HUGE_VAL, .invert = 16}; };
       }));
   rows.push_back(run(

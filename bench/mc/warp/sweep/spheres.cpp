@@ -14,7 +14,7 @@ namespace {
 
 double d(const auto& x) { return static_cast<double>(x); }
 
-// By each of its three constructors.
+// A cone from each of three constructors.
 template <class S> mc::UniformCone<S> cone(int form, S x) {
   if (form == 0) return mc::UniformCone<S>::from_one_minus_cos(x);
   if (form == 1) return mc::UniformCone<S>::from_angle(x);

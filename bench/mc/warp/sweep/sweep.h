@@ -1,5 +1,5 @@
 #pragma once
-// Warps of random parameters over their whole legal range against the 50-digit oracle and the bounds they state.
+// Tests the stated bounds of warps at random parameters over their whole legal range, against the 50-digit oracle.
 
 #include <mc/check/subject/oracle.h>
 #include <mc/core/error.h>
@@ -18,20 +18,20 @@
 
 namespace sweep {
 
-/// What a warp promises at one point, in machine epsilons of its scalar.
-///   sample : |sample(u) - exact| / max(scale, |exact|)
-///   pdf    : |pdf(x) / exact - 1|
-///   invert : |invert(sample(u)) - u|
+/// The bounds that a warp states at one point, in machine epsilons of its scalar.
+///   sample : |sample(u) - exact| / max(scale, |exact|).
+///   pdf    : |pdf(x) / exact - 1|.
+///   invert : |invert(sample(u)) - u|.
 struct Bounds {
   double sample = 16, pdf = 16, invert = 16, scale = 1;
 };
 
-/// One law over all trials of a warp: its worst error as a multiple of what is promised, and where.
+/// One law over all trials of a warp: its worst error as a multiple of the bound, and its place.
 struct Law {
   double worst = 0; ///< error / bound
   double eps = 0;   ///< the same error in epsilons
   std::uint64_t broken = 0, points = 0;
-  std::string worst_case; ///< of the worst, where it is broken
+  std::string worst_case; ///< place of the worst error, if it violates the bound
 
   template <class Describe> void note(double error, double bound, Describe&& describe) {
     ++points;
@@ -57,12 +57,12 @@ struct Effort {
   std::uint64_t seed = 1;
 };
 
-/// Parameters at random.
+/// Draws random parameters.
 struct Draw {
   mc::Pcg& random;
   double u() { return random.uniform<double>(); }
   bool often(double chance) { return u() < chance; }
-  /// Log-uniform over [lo, hi], each end itself now and then.
+  /// Log-uniform over [lo, hi], sometimes exactly lo or hi.
   double log(double lo, double hi) {
     const double v = u();
     if (v < 0.02) return lo;
@@ -71,7 +71,7 @@ struct Draw {
   }
   double sign() { return often(0.5) ? 1 : -1; }
   int below(int n) { return static_cast<int>(u() * n); }
-  /// Unit vector; next to an axis or in a coordinate plane now and then.
+  /// Unit vector, sometimes close to an axis or in a coordinate plane.
   template <class S> mc::Vec3<S> direction() {
     mc::Vec3<double> d(u() - 0.5, u() - 0.5, u() - 0.5);
     for (int i = 0; i < 3; ++i)
@@ -79,7 +79,7 @@ struct Draw {
     if (!(d.norm() > 0)) d = {0, 0, 1};
     return d.normalized().cast<S>().normalized();
   }
-  /// A number of [0,1): uniform, at an end, or next to one.
+  /// A number of [0,1): uniform, at an end, or next to an end.
   template <class S> S unit() {
     const double v = u();
     if (v < 0.05) return S(0);
@@ -136,7 +136,8 @@ template <class W> struct Prober {
     if (!finite(x)) return;
     const Bounds bounds = at(u, x);
     double off = distance(x, oracle.sample(mc::cast_point<mc::Oracle>(u)), bounds.scale);
-    // Where the density vanishes at an end, u below half its step stands for that, which is another over 50 digits.
+    // If the density vanishes at an end, the warp replaces u by half a step of u there. The 50-digit oracle has a
+    // different step, so the step of S is tried.
     for (const double half_step : {eps / 4, eps / 2, eps / 8}) {
       if (off <= bounds.sample) break;
       auto wide = mc::cast_point<mc::Oracle>(u);
@@ -159,7 +160,7 @@ template <class W> struct Prober {
     if constexpr (mc::InvertibleWarp<W>) inverse(u, x, bounds.invert);
   }
 
-  /// A direction is unit only to the precision of its scalar: the oracle gets it at length 1.
+  /// A direction is a unit vector only to the precision of its scalar: it is normalized for the oracle.
   static auto exactly(const mc::PointOf<W>& x) {
     auto wide = mc::cast_point<mc::Oracle>(x);
     if constexpr (W::Domain::measure == mc::Measure::solid_angle) wide.normalize();
@@ -177,7 +178,7 @@ template <class W> struct Prober {
       if (!(component(back, i) >= 0 && component(back, i) < 1)) worst = HUGE_VAL;
     if (worst > 0)
       return row.invert.note(worst, bound, [&] { return fmt::format("{}: inverted {}", where(u), text(back)); });
-    // An end of one coordinate may be a point in the chart of another: a pole has no azimuth.
+    // An end of one coordinate may be a singular point of the chart for another: a pole has no azimuth.
     bool end = false;
     for (int i = 0; i < dim; ++i) {
       const double v = component(u, i);
@@ -205,7 +206,8 @@ template <class W> struct Prober {
 };
 } // namespace detail
 
-/// make(draw, parameters) -> the warp, or throws mc::Error where it refuses; bounds(warp) -> (u, x) -> Bounds.
+/// make(draw, parameters) returns the warp, or throws mc::Error if it rejects the parameters. bounds(warp) maps (u, x)
+/// to Bounds.
 template <class Make, class BoundsOf> Row run(std::string name, const Effort& effort, Make make, BoundsOf bounds_of) {
   Row row;
   row.name = std::move(name);
@@ -237,14 +239,14 @@ template <class Make, class BoundsOf> Row run(std::string name, const Effort& ef
         }
         prober.probe(oracle, u, at);
       }
-    } catch (const mc::Error& e) { // what the constructor accepts must not be refused later
+    } catch (const mc::Error& e) { // accepted parameters must not be rejected later
       row.edges.note(2, 1, [&] { return fmt::format("{}: {}", parameters, e.what()); });
     }
   }
   return row;
 }
 
-/// The same bounds everywhere.
+/// The same bounds at every point.
 inline auto constant(Bounds b) {
   return [b](const auto&) { return [b](const auto&, const auto&) { return b; }; };
 }
