@@ -12,8 +12,8 @@ namespace detail {
 template <Real S> using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
 } // namespace detail
 
-/// Directions from the origin to a planar patch: to the triangle origin + s edge1 + t edge2 with s, t >= 0 and s + t <=
-/// 1, or to the parallelogram with s, t in [0, 1] if Corners = 4.
+/// Directions from the origin to the points origin + s edge1 + t edge2 of a planar patch. The patch is the triangle s,
+/// t >= 0, s + t <= 1, or for Corners = 4 the parallelogram s, t in [0, 1].
 ///   chart    : (s, t) = v for the parallelogram, v0 (1 - v1, v1) for the triangle. Directions are the normalized
 ///              points.
 ///   jacobian : Area element * distance of the plane / |p|^3.

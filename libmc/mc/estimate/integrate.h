@@ -182,11 +182,11 @@ struct BatchIntegrand {
 ///                never give error 0: a bound for undetected variation is added. No replicated method converges with
 ///                                    fewer than 128 points per replicate, with all values 0, or with infinite
 ///                                    variance. The error_bar then gives the reason.
-///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
-///                one round, confidence outside (0,1), or threads < 0. Error for a density of another dimension or for
-///                a method without density, or if all outputs are auxiliary. NotFinite if the integrand is NaN at a
-///                point, or infinite on more than a thousandth of the volume. Error if cancelled before the first
-///                estimate, and any exception of the integrand, after all threads have stopped.
+///   throws     : Error for an empty f, dim < 1, confidence outside (0,1), or threads < 0. Error for a tolerance that
+///                is negative or not finite, or max_calls too small for one round. Error for a density of another
+///                dimension or for a method without density, or if all outputs are auxiliary. NotFinite if the
+///                integrand is NaN at a point, or infinite on more than a thousandth of the volume. Error if cancelled
+///                before the first estimate, and any exception of the integrand, after all threads have stopped.
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim,
                         const IntegrateOptions& options = {});
 

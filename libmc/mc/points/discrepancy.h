@@ -43,8 +43,8 @@ struct SmallestDistance {
 };
 /// Smallest distances of a point set.
 ///   cost   : At most n^2 dim operations. Less if the first axis separates the points.
-///   random : The mean periodic distance for n independent points tends to Gamma(1 + 1/dim) (2 / (n^2 V))^(1/dim) with
-///            V the volume of the unit ball, if that is well below 1/2 [SilvermanBrown78].
+///   random : The mean periodic distance of n independent points tends to Gamma(1 + 1/dim) (2 / (n^2 V))^(1/dim) if
+///            that is well below 1/2 [SilvermanBrown78]. V is the volume of the unit ball.
 SmallestDistance smallest_distance(PointList points);
 
 } // namespace mc

@@ -16,8 +16,8 @@ namespace mc {
 ///   Source : [PilleboueEtAl15].
 std::vector<double> radial_power_spectrum(PointList points, int rings);
 
-/// Expected radial spectrum of jittered points, with one point in each cell of a grid of at least two dimensions and m
-/// cells along each axis: 1 - sinc^2(f_x / m) sinc^2(f_y / m).
+/// Expected radial spectrum of jittered points: 1 - sinc^2(f_x / m) sinc^2(f_y / m). The points lie in the cells of a
+/// grid of at least two dimensions with m cells along each axis.
 std::vector<double> jittered_radial_spectrum(double m, int rings);
 
 } // namespace mc

@@ -44,7 +44,7 @@ struct VarianceSum {
     value += variance;
     squares += correlated_terms * variance * variance / (dof + 2);
   }
-  /// Effective degrees of freedom by Satterthwaite's formula, corrected for bias: a squared variance estimate of d
+  /// Effective degrees of freedom by Satterthwaite's formula, corrected for bias. A squared variance estimate of d
   /// degrees of freedom is (d + 2) / d times too large on average. Exact for one term, at least 1, and infinite if the
   /// sum is 0.
   ///   Source : [Welch47].

@@ -27,7 +27,7 @@ struct WeightedSamples {
 /// Learns boxes for stratified importance sampling of an integrand.
 ///   weights : The probability of a box is proportional to its volume times the root of (variance + 1/4 squared mean)
 ///             in it. This is optimal for points that are evenly spread over the probabilities.
-///   uniform : A tenth of the probability is uniform over the cube, and a fiftieth uniform over each box that is cut,
+///   uniform : A tenth of the probability is uniform over the cube. A fiftieth is uniform over each box that is cut,
 ///             because the neighbourhood of a peak may belong to it.
 ///   cuts    : Half of the points proposes the cut of largest gain, and the other half must confirm it. Each box
 ///             contains at least 16 points of each half.

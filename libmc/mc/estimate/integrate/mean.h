@@ -96,10 +96,10 @@ struct ReplicateHistory {
 ///   jumps : A jump of height h moves a replicate by h / points or not at all. Equal replicates only show that none was
 ///           moved. The error includes .75 h / points over the number of replicates, in quadrature. The factor gives
 ///           nominal coverage for 24 trials of a random probability, also for runs that stop at a tolerance. h is the
-///           largest jump of four kinds: it separated replicates at one of the last lengths, or clearly at any length,
-///           or disappeared suddenly, or appeared across an axis at the first points. If all replicates are equal, h is
-///           the range of all values, or their size if all values are equal. The rule of three then holds for unsampled
-///           regions. Replicates that differed before and then agree keep their last error.
+///           largest jump that separated replicates, at one of the last lengths or clearly at any length. Jumps that
+///           disappeared suddenly and jumps across an axis at the first points also count. If all replicates are equal,
+///           h is the range of all values, or their size if all values are equal. The rule of three then holds for
+///           unsampled regions. Replicates that differed before and then agree keep their last error.
 ///   heavy tails : For a tail of index a > 2, the share R^-(1 - 2/a) of the variance lies beyond the largest of R
 ///                 values.
 ///   noisy variance : The variance is inaccurate for a tail with a < 8 or for replicates with skewness above 1. It is

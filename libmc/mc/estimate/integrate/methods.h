@@ -33,8 +33,8 @@ struct LearnedDensity {
   std::vector<double> control_coefficients = {}; ///< Coefficient of each output.
 };
 
-/// Learns a density in rounds of increasing size. Uses a 32nd of the calls, or up to a quarter of a small budget, up to
-/// a fifth if that helps, and up to two fifths if rare large values may be missing.
+/// Learns a density in rounds of increasing size. Uses a 32nd of the calls, or up to a quarter of a small budget. Uses
+/// up to a fifth if that helps, and up to two fifths if rare large values may be missing.
 ///   baseline : Recorded sequences, or null. Learning starts from their points. Returns nullopt if they are better than
 ///              the learned density, as far as both errors are known.
 ///   options.density : Used unchanged if DensityLearner::fits() accepts it; otherwise learning continues from it.

@@ -32,9 +32,9 @@ struct Quantile {
 /// Quantiles of f(u), u uniform in [0,1)^dim, from independently scrambled Sobol' sequences.
 ///   interval : All t for which P(f <= t) agrees with the probability. That share is a mean over replicates with its
 ///              own interval. If single values of f have positive probability, the interval contains the true quantile.
-///   throws   : Error for an empty f, dim < 1, no probability or a probability outside (0, 1), fewer than two calls for
-///              each replicate, more values than fit into 128 MB, a non-finite value of f, with its point, or if
-///              cancelled.
+///   throws   : Error for an empty f, dim < 1, no probability, or a probability outside (0, 1). Error for fewer than
+///              two calls per replicate, more values than fit into 128 MB, or if cancelled. NotFinite with the point
+///              for a non-finite value of f.
 std::vector<Quantile> quantiles(const std::function<double(std::span<const double>)>& f, int dim,
                                 std::span<const double> probabilities, const QuantileOptions& options = {});
 

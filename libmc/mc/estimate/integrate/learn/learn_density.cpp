@@ -14,8 +14,8 @@ constexpr double small_lead = 0.5; // in units of log_variance_gain()
 
 // Advantage of a round over the baseline sequences: logarithm of the ratio of their variances, summed over the outputs.
 // Scales the variance of the sequences to the number of points of the round by 1 / N. Compares at the length closest to
-// the round and at the last length, and takes the result more favourable for the round, because a variance from few
-// points is often too small.
+// the round and at the last length. Takes the result more favourable for the round, because a variance from few points
+// is often too small.
 double log_variance_gain(const Means& round, std::uint64_t points, const ReplicatedSequences& baseline) {
   std::size_t at = 0;
   for (std::uint64_t length = 16; 2 * length <= points && at + 1 < baseline.means_history.size(); length *= 2) ++at;
