@@ -1,7 +1,7 @@
-/// RMS relative error of integrate() against GSL, shifted Sobol' and padded Owen-scrambled Sobol' points on Genz's
-/// integrals, and the
-/// cost of a call: prints a table.
-/// Usage: bench_genz [CALLS [SEEDS [FIRST_SEED [NAME]]]]; NAME keeps the integrals that contain it
+/// RMS relative error of integrate() on Genz's integrals, compared with GSL, shifted Sobol' points and padded
+/// Owen-scrambled Sobol' points. Prints a table with the cost of a call.
+/// Usage: bench_genz [CALLS [SEEDS [FIRST_SEED [NAME]]]]
+/// NAME keeps the integrals that contain it.
 
 #include "gsl_peers.h"
 
@@ -29,7 +29,8 @@ using carlo::UnitCubeIntegral;
 
 double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-// Sixteen randomisations of the longest power of two that fits, padded by fours, as OpenQMC's users take them.
+// Sixteen randomisations of the largest power of two of points that fits, padded in groups of four dimensions as in
+// OpenQMC.
 double padded_sobol(const UnitCubeIntegral& e, std::uint64_t calls, std::uint64_t seed) {
   mc::Moments means;
   const std::uint64_t points = std::bit_floor(calls / 16);
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
       picked = r.method;
       return r.estimate.value;
     });
-    // The integrand alone, on random points: its branches are as hard to predict as in an integration.
+    // Time of the integrand alone, on random points, so that its branches are as unpredictable as in an integration.
     const auto dim = static_cast<std::size_t>(e.dim);
     std::vector<double> x(4096 * dim);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = mc::coordinate<double>(mc::Independent{1}, i, 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// What GSL makes of an integral, as its users would call it.
+/// Integrals by GSL, called as its users would.
 
 #include <integrands/unit_cube_integral.h>
 
@@ -53,7 +53,7 @@ struct Gsl {
     gsl_monte_miser_free(s);
     return value;
   }
-  // Five iterations of a fifth each, as the manual does.
+  // Five iterations with a fifth of the calls each, as in the manual.
   double vegas() {
     double value, error;
     auto* s = gsl_monte_vegas_alloc(dim);
@@ -61,7 +61,7 @@ struct Gsl {
     gsl_monte_vegas_free(s);
     return value;
   }
-  // Two warm-up iterations on a fifth of the calls, four on the rest.
+  // Two warm-up iterations on a fifth of the calls, then four on the rest.
   double vegas_warm() {
     double value, error;
     auto* s = gsl_monte_vegas_alloc(dim);
@@ -78,7 +78,8 @@ struct Gsl {
     gsl_monte_vegas_free(s);
     return value;
   }
-  // Sixteen Cranley-Patterson shifts of Sobol's sequence: libmc's, since GSL's ends at 40 dimensions.
+  // Sixteen Cranley-Patterson shifts of Sobol's sequence. Uses the sequence of libmc, because GSL has only 40
+  // dimensions.
   double shifted_sobol() {
     mc::Moments means;
     const mc::Sobol sobol;

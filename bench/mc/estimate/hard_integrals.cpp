@@ -37,7 +37,8 @@ double absolute_product(UnitPoint x) {
   return f;
 }
 
-// A call on the geometric mean of 50 prices of a lognormal walk: price and strike 100, volatility .3, rate .05, a year.
+// Call option on the geometric mean of 50 prices of a lognormal walk: price and strike 100, volatility .3, rate .05,
+// one year.
 constexpr double volatility = 0.3, rate = 0.05;
 constexpr int days = 50;
 double asian(UnitPoint u) {
@@ -49,7 +50,7 @@ double asian(UnitPoint u) {
   }
   return std::exp(-rate) * std::max(100 * std::exp(sum / days) - 100, 0.0);
 }
-// The logarithm of the mean is normal.
+// Exact value: the logarithm of the geometric mean is normal.
 double asian_truth() {
   const double n = days, mean = (rate - volatility * volatility / 2) * (n + 1) / (2 * n);
   const double s = volatility * std::sqrt((n + 1) * (2 * n + 1) / (6 * n * n));
@@ -75,7 +76,7 @@ double shell(UnitPoint x) {
   return r2 < mc::sqr(shell_outer) && r2 >= mc::sqr(shell_inner) ? 1 : 0;
 }
 
-// A Gaussian ten times as long as wide, along (1, 2, 2) / 3; what lies outside of the cube is below 1e-11 of it.
+// A Gaussian ten times as long as wide, along (1, 2, 2) / 3. The share outside of the cube is below 1e-11.
 constexpr double ridge_width = 0.006, ridge_length = 0.06;
 double ridge(UnitPoint x) {
   const double along = (x[0] - 0.5 + 2 * (x[1] - 0.5) + 2 * (x[2] - 0.5)) / 3,
@@ -83,13 +84,13 @@ double ridge(UnitPoint x) {
   return std::exp(-(mc::sqr(along / ridge_length) + across2 / mc::sqr(ridge_width)) / 2);
 }
 
-// The hole in the middle and what lies outside of the square are below 1e-100 of it.
+// The shares of the hole in the middle and of the region outside of the square are below 1e-100.
 constexpr double ring_radius = 0.3, ring_width = 0.008;
 double ring(UnitPoint x) { return std::exp(-mc::sqr((std::sqrt(distance2(x, 0.5)) - ring_radius) / ring_width) / 2); }
 
 double corner(UnitPoint x) { return std::pow(std::max(x[0] * x[1] * x[2], 1e-300), -0.4); }
 
-// |x - c|^-1.2 in a ball about c that lies in the cube.
+// |x - c|^-1.2 in a ball about c inside the cube.
 constexpr double pole_power = 1.2, pole_radius = 0.4;
 double pole(UnitPoint x) {
   const double r2 = distance2(x, 0.43);

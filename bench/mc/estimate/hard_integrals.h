@@ -1,13 +1,14 @@
 #pragma once
-/// Integrals on which clever densities were found to do harm, or no good.
+/// Integrals that are hard for adaptive densities.
 
 #include <integrands/unit_cube_integral.h>
 
 namespace carlo {
 
-/// Ten in 2 to 50 dimensions, named hard_KIND, their truths in closed form: two peaks on a diagonal, a product of
-/// |4 x - 2| in 20 dimensions, an Asian option on a geometric mean of 50 prices, a box at a random place, a thin shell,
-/// a ridge that follows no axis, a ring, a corner and a pole of power laws, a ball.
+/// Ten integrals in 2 to 50 dimensions, named hard_KIND, with exact values in closed form. Smooth ones: two peaks on a
+/// diagonal, a ridge along no axis, and a ring. Discontinuous ones: a box at a random place, a thin shell, and a ball.
+/// Others: a product of |4 x - 2| in 20 dimensions, an Asian option on a geometric mean of 50 prices, and a corner and
+/// a pole of power laws.
 const std::vector<UnitCubeIntegral>& hard_integrals();
 
 } // namespace carlo

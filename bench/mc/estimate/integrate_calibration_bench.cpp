@@ -1,8 +1,8 @@
-/// How honest the error bars of integrate() are on Genz's integrals: the shares of runs within 1 and 2 standard errors
-/// of the truth, and within the 95 % interval, for each method; prints a table.
-/// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD [NAME]]]]]; runs are per integral; NAME keeps
-///        the integrals that contain it.
-/// Runs whose rounds disagree (`consistent` is false) are counted apart: shares are of the others.
+/// Calibration of the error bars of integrate() on Genz's integrals. Prints a table for each method: shares of runs
+/// within 1 and 2 standard errors of the exact value, and within the 95 % interval.
+/// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD [NAME]]]]]
+/// RUNS is per integral. NAME keeps the integrals that contain it. Runs with inconsistent rounds (`consistent` is
+/// false) are counted separately, and the shares exclude them.
 
 #include <integrands/genz.h>
 
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
                                   mc::Method::tree, mc::Method::automatic}) {
     if (!only.empty() && only != name(method)) continue;
     Shares all;
-    std::uint64_t seed = first; // another one for each integral: those of one dimension would share their points
+    std::uint64_t seed = first; // differs between integrals: integrals of equal dimension would share their points
     for (const carlo::UnitCubeIntegral& e : carlo::genz_integrals()) {
       if (e.name.find(integrals) == std::string::npos) continue;
       Shares shares;

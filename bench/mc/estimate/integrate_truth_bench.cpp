@@ -1,8 +1,10 @@
-/// What the error bars of integrate() are worth on integrands made by machine: for each class and method the share of
-/// runs whose 95 % interval holds the truth, as CSV on stdout.
-/// Usage: bench_mc_estimate_truth [RUNS [CALLS [REL_ERROR [FIRST_SEED [METHODS [CLASSES]]]]]]; METHODS and CLASSES are
-/// lists with commas, or all.
-///   covered : of the runs with a bar whose rounds agree;  unknown : runs that gave no bar; flagged : rounds disagree
+/// Coverage of the error bars of integrate() on randomly generated integrands. Prints CSV: for each class and method,
+/// the share of runs with a 95 % interval that contains the exact value.
+/// Usage: bench_mc_estimate_truth [RUNS [CALLS [REL_ERROR [FIRST_SEED [METHODS [CLASSES]]]]]]
+/// METHODS and CLASSES are comma-separated lists, or all.
+///   covered : share among the runs with an error bar and consistent rounds.
+///   unknown : runs without an error bar.
+///   flagged : runs with inconsistent rounds.
 
 #include <integrands/random_integrands.h>
 #include <terminal/version.h>

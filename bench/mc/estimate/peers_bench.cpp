@@ -1,11 +1,12 @@
-/// integrate()'s `auto` against the best of GSL's vegas and miser, shifted Sobol' points and its own rqmc, on Genz's
-/// integrals and the hard ones: a row of CSV for each on stdout.
-/// Usage: bench_mc_estimate_peers [CALLS [SEEDS [FIRST_SEED [NAME]]]]; NAME keeps the integrals that contain it
-///   miser ... automatic : RMS relative error of the seeds; vegas is the better of two ways to call it
-///   ratio, ratio_error  : automatic over the best of the others, and the standard error of that, from the seeds
-///   picked              : share of the runs in which it chose vegas, and tree
-///   covered, flagged    : of the runs whose rounds agree, those whose 95 % interval holds the truth; runs that
-///   disagree
+/// integrate() with `auto`, compared with the best of GSL's vegas and miser, shifted Sobol' points and rqmc, on Genz's
+/// integrals and the hard integrals. Prints one CSV row per integral.
+/// Usage: bench_mc_estimate_peers [CALLS [SEEDS [FIRST_SEED [NAME]]]]
+/// NAME keeps the integrals that contain it.
+///   miser ... automatic : RMS relative error over the seeds. vegas is the better of two ways to call it.
+///   ratio, ratio_error  : automatic over the best of the others, and its standard error over the seeds.
+///   picked              : Shares of the runs that selected vegas and tree.
+///   covered, flagged    : Coverage of the 95 % intervals among runs with consistent rounds, and share of runs with
+///                         inconsistent rounds.
 
 #include "gsl_peers.h"
 #include "hard_integrals.h"
@@ -27,7 +28,7 @@ namespace {
 
 using carlo::UnitCubeIntegral;
 
-// Squared relative errors of the seeds.
+// Squared relative errors over the seeds.
 struct Errors {
   mc::Moments squares;
   void add(double value, double truth) { squares.add(mc::sqr(value / truth - 1)); }

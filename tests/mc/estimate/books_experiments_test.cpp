@@ -1,5 +1,5 @@
-// The numeric experiments of the books on Monte Carlo and rendering, each against its analytic value; where a book
-// prints another, the test says so. `carlo converge` shows how the errors of some of them fall.
+// Numeric experiments from books on Monte Carlo and rendering, each compared with its analytic value. Comments mark
+// values that differ from the printed ones. `carlo converge` shows the convergence of some of them.
 
 #include <mc/core/error.h>
 #include <mc/domain/box.h>
@@ -28,8 +28,8 @@ constexpr double pi = std::numbers::pi;
 
 mc::Vec2<double> pair(Unit u) { return {u[0], u[1]}; }
 
-// Mean and variance per sample of f(u). 5 standard errors of 24 replicates, a false alarm in 5e-5 of seeds, or
-// rounding.
+// Checks mean and variance per sample of f(u) within rounding or 5 standard errors of 24 replicates, a false alarm in
+// 5e-5 of seeds.
 void expect_moments(const char* what, int dim, const std::function<double(Unit)>& f, double mean,
                     double variance = NAN) {
   mc::IntegrateOptions o;
@@ -63,8 +63,8 @@ TEST(BooksExperiments, PiByDarts) {
       pi / 6);
 }
 
-// pi by N jittered strata: rms error 2.85 N^-0.75, measured over 64 seeds; rms of 64 values is known to 9 %, 3 of
-// those.
+// pi by N jittered strata has the RMS error 2.85 N^-0.75. The RMS of 64 values has a standard error of 9 %; the bound
+// is 3 of these.
 TEST(BooksExperiments, PiByStrata) {
   for (const std::uint32_t side : {32u, 100u}) {
     double squares = 0;
@@ -115,7 +115,7 @@ TEST(BooksExperiments, CosinesOverSphereAndHemisphere) {
   const mc::UniformHemisphere<double> uniform;
   const mc::CosineHemisphere<double> cosine;
   const auto cube = [](const V& w) { return w.z() * w.z() * w.z(); };
-  // A book says 8 pi / 3.
+  // One book states 8 pi / 3.
   expect_moments(
       "cos^2 over the sphere", 2, [&](Unit u) { return mc::sqr(sphere.sample(pair(u)).z()) * 4 * pi; }, 4 * pi / 3,
       mc::sqr(3.746567856555));
@@ -133,7 +133,7 @@ TEST(BooksExperiments, CosinesOverSphereAndHemisphere) {
   EXPECT_NEAR(1 / uniform.pdf({0, 0, 1}), 2 * pi, 1e-14);
 }
 
-// exp(-x / 2 pi) sin^2 x on [0, 2 pi]. The book prints the noise of its 1e4 samples: 1.977, 0.3147 and 2.016.
+// exp(-x / 2 pi) sin^2 x on [0, 2 pi]. The book prints values with the noise of 1e4 samples: 1.977, 0.3147 and 2.016.
 TEST(BooksExperiments, Halfway) {
   const auto f = [](double x) { return std::exp(-x / (2 * pi)) * mc::sqr(std::sin(x)); };
   expect_moments(
@@ -164,7 +164,7 @@ TEST(BooksExperiments, SolidAngles) {
   EXPECT_NEAR(seen(0.25), 0.841787214477, 1e-12);
   EXPECT_NEAR(seen(1), 2 * pi, 1e-14);
   EXPECT_NEAR(seen(1e-20) / (pi * 1e-20), 1, 1e-15);
-  // The light of the Cornell box from the middle of its floor: 130 x 105 at a height of 554.
+  // Light of the Cornell box from the middle of its floor: 130 x 105 at a height of 554.
   const mc::SphericalRectangle<double> light({213 - 278, 554, 227 - 279.5}, {130, 0, 0}, {0, 0, 105});
   EXPECT_NEAR(light.solid_angle(), 0.043975585816, 1e-12);
   expect_moments(
@@ -177,7 +177,7 @@ TEST(BooksExperiments, Moments) {
     expect_moments(
         "variance of a tent", 1, [&](Unit u) { return mc::sqr(tent.sample(u[0])); }, h * h / 6);
   }
-  // A linear radius gives 1/3.
+  // A radius proportional to u would give 1/3.
   expect_moments(
       "E r^2 of the disk", 2, [](Unit u) { return mc::UniformDisk<double>{}.sample(pair(u)).squaredNorm(); }, 0.5);
   for (const double alpha : {0.1, 1.0}) {
@@ -192,7 +192,7 @@ TEST(BooksExperiments, Moments) {
   }
 }
 
-// A solar cell over a day of 86000 s, in joules: 50 sin(pi t / 86000) + 2 watts.
+// Energy of a solar cell over a day of 86000 s [J], for a power of 50 sin(pi t / 86000) + 2 [W].
 TEST(BooksExperiments, Energy) {
   expect_moments(
       "energy", 1, [](Unit u) { return 86000 * (50 * std::sin(pi * u[0]) + 2); }, 8.6e6 / pi + 172000,
@@ -203,7 +203,7 @@ TEST(BooksExperiments, SymmetricDifferences) {
   const auto cube = [](double x) { return x * x * x; };
   const auto derivative = [&](double delta) { return (cube(2 + delta) - cube(2 - delta)) / (2 * delta); };
   EXPECT_NEAR(derivative(6e-6), 12, 1e-9);
-  EXPECT_GT(std::abs(derivative(1e-10) - 12), 1e-7); // too small a step: rounding
+  EXPECT_GT(std::abs(derivative(1e-10) - 12), 1e-7); // rounding dominates for a step that is too small
 }
 
 } // namespace

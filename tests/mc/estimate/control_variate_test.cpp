@@ -43,7 +43,7 @@ TEST(ControlVariates, CoefficientsAreThoseOfLeastVariance) {
   EXPECT_NEAR(least * std::sqrt(10'000.0), 0.439, 0.02);
 }
 
-// A control that is the integrand up to a factor leaves no error; one that is constant changes nothing; one given twice
+// A control proportional to the integrand leaves no error. A constant control changes nothing. A repeated control
 // counts once.
 TEST(ControlVariates, SpecialControls) {
   mc::Pcg random(2);
@@ -65,9 +65,9 @@ TEST(ControlVariates, SpecialControls) {
   EXPECT_LT(r.std_error, 0.3 * repeated.without_controls().std_error);
 }
 
-// Against least squares by Eigen on the centred samples in units of their deviations: 1 to 6 controls of scales 1e-9 to
-// 1e9, every third case with a control that is a combination of two others. 1e-7: the normal equations square the
-// condition, here below 1e4.
+// Compares with least squares by Eigen on centred samples in units of their deviations. There are 1 to 6 controls with
+// scales of 1e-9 to 1e9. Every third case has a control that is a combination of two others. The normal equations
+// square the condition number, here below 1e4, which gives the bound 1e-7.
 TEST(ControlVariates, CoefficientsAreLeastSquares) {
   mc::Pcg random(8);
   for (int trial = 0; trial < 60; ++trial) {
@@ -101,8 +101,8 @@ TEST(ControlVariates, CoefficientsAreLeastSquares) {
   }
 }
 
-// One control. A coefficient fitted to the same 8 samples biases the mean, that of the other half does not. 5 standard
-// errors over 20000 runs, a false alarm in 6e-7 of seeds; the seed is fixed.
+// With one control, a coefficient fitted to the same 8 samples biases the mean, and a coefficient of the other half
+// does not. 5 standard errors over 20000 runs are a false alarm in 6e-7 of seeds; the seed is fixed.
 TEST(CrossFittedEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
   mc::Pcg random(3);
   mc::Moments crossed, in_place;
@@ -120,8 +120,8 @@ TEST(CrossFittedEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
   EXPECT_GE(std::abs(in_place.mean() - truth), 10 * in_place.std_error());
 }
 
-// Shares within 1 and 2 sigma over 2000 runs of 2 x 100 samples: .683 and .954, with standard errors .0104 and .0047; 3
-// of those.
+// Shares within 1 and 2 sigma over 2000 runs of 2 x 100 samples: .683 and .954, with standard errors .0104 and .0047.
+// The bounds are 3 of these.
 TEST(CrossFittedEstimate, ErrorBarIsCalibrated) {
   mc::Pcg random(4);
   int within1 = 0, within2 = 0;

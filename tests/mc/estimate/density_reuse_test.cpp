@@ -1,5 +1,5 @@
-// A density that was learned serves other runs: nothing is learned again where it fits, learning goes on where it does
-// not, and nothing is biased, however wrong it is.
+// Reuse of a learned density in other runs. No learning takes place if it fits, learning continues if it does not, and
+// no density biases the result.
 
 #include <mc/core/error.h>
 #include <mc/estimate/adapt/density_file.h>
@@ -18,7 +18,7 @@ using support::with;
 using Unit = std::span<const double>;
 using mc::Method;
 
-// Two Gaussians at random places, the second of the same width; `shift` moves them.
+// Two Gaussians of equal width at random places; `shift` moves both.
 struct Peaks {
   std::size_t dim;
   std::uint64_t seed;
@@ -58,8 +58,8 @@ int learning(const mc::Integral& r) {
   return n;
 }
 
-// With its own density, and with that of an integrand that lies beside it: 40 intervals of 95 % for each, of which 38
-// are expected; fewer than 33 by chance in 7e-4 of the choices of seeds.
+// Uses the density of the same integrand, and of an integrand next to it. There are 40 intervals of 95 % for each, and
+// 38 are expected to contain the exact value. Fewer than 33 occur by chance for 7e-4 of seed choices.
 TEST(DensityReuse, IsUnbiased) {
   for (const Method method : {Method::vegas, Method::tree, Method::automatic})
     for (const double shift : {0.0, 0.07}) {
@@ -89,15 +89,16 @@ TEST(DensityReuse, IsUnbiased) {
       EXPECT_GE(runs, 30) << name(method);
       EXPECT_GE(covered, runs * 5 / 6) << name(method) << " " << shift;
       if (shift == 0) {
-        EXPECT_LT(reused, fresh) << name(method); // learned from three times the calls, and little spent on it
+        EXPECT_LT(reused, fresh) << name(method); // learned from three times the calls, with little spent on it
         EXPECT_GE(kept, runs * 3 / 4) << name(method);
       }
     }
 }
 
-// Steps of height 1 above .01 that moved towards where the density is low: replicates that met none of what lies
-// between agreed, and 57 to 90 % of the intervals held, or the rounds disagreed. 120 intervals of 95 % each, of which
-// 114 are expected; fewer than 105 by chance in 4e-4 of the choices of seeds, for each of the nine.
+// Steps of height 1 above .01 that moved into the region of low density. Replicates that all miss the region in between
+// agree, so the interval would be wrong without a warning. A run counts if its interval covers or its rounds disagree.
+// 114 of 120 intervals of 95 % are expected to cover. Fewer than 105 occur by chance for 4e-4 of seed choices, for each
+// of the nine cases.
 TEST(DensityReuse, DetectsAMovedIntegrand) {
   for (const Method method : {Method::vegas, Method::tree, Method::automatic})
     for (const double by : {0.002, 0.005, 0.02}) {

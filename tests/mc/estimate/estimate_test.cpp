@@ -22,7 +22,7 @@ TEST(Estimate, StudentInterval) {
   EXPECT_NEAR(mc::Estimate::from_student_t(0, 1, 9, 10).interval(0.95).hi, 2.26215716279820, 1e-9);
 }
 
-// One sigma is the interval of 68.27 % for any number of values: tan(.68269 pi / 2) for one degree of freedom.
+// std_error is half the 68.27 % interval for any number of values: tan(.68269 pi / 2) for one degree of freedom.
 TEST(Estimate, StdErrorCoversOneSigmaForAnyDof) {
   const double probability = std::erf(std::sqrt(0.5));
   for (const double dof : {1.0, 2.0, 9.0, 23.0, 1e6}) {

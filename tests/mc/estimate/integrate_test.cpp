@@ -53,7 +53,7 @@ TEST(Integrate, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-// A power of two scales every number of the estimate exactly, as long as squares of values have an exponent.
+// A power of two scales all numbers of the estimate exactly, if squares of values do not overflow or underflow.
 TEST(Integrate, IsScaleEquivariant) {
   for (const Method method : methods) {
     const mc::Integral one = mc::integrate_unit(peak, 2, with(method, 30'000));
@@ -81,7 +81,7 @@ TEST(Integrate, ConvergesForExtremeMagnitudes) {
     }
 }
 
-// 8 of 50 misses are exceeded by chance in .08 % where 95 % of the intervals hold.
+// At a coverage of 95 %, more than 8 of 50 misses have probability .08 %.
 TEST(Integrate, EqualReplicates_HaveAnErrorAndDoNotConverge) {
   for (const Method method : methods) {
     mc::IntegrateOptions o;
@@ -95,7 +95,8 @@ TEST(Integrate, EqualReplicates_HaveAnErrorAndDoNotConverge) {
     }
     EXPECT_LE(missed, 8) << name(method);
     const mc::Integral constant = mc::integrate_unit([](Unit) { return 3.0; }, 2, o);
-    EXPECT_EQ(constant.stop, mc::StopReason::max_calls) << name(method); // so would be 1e5 in a box that no point met
+    // a value of 1e5 in a box without points would look the same
+    EXPECT_EQ(constant.stop, mc::StopReason::max_calls) << name(method);
     EXPECT_GT(constant.interval.hi, 3) << name(method);
     const mc::Integral zero = mc::integrate_unit([](Unit) { return 0.0; }, 2, o);
     EXPECT_EQ(zero.stop, mc::StopReason::max_calls) << name(method);
@@ -104,9 +105,9 @@ TEST(Integrate, EqualReplicates_HaveAnErrorAndDoNotConverge) {
   }
 }
 
-// Gaussians of a mass that .02 to 2 of 2000 points are expected in: 42 to 48 % of the intervals would lie below the
-// integral. Where 20 to 200 are expected the error is known, and 95 % of the intervals hold: 28 of 300 are 3.5
-// deviations beyond 15, alpha = .1 % for each method.
+// Gaussians with an expected number of .02 to 2 points of 2000. Almost half of the intervals would lie below the
+// integral, so the error must be unknown. With 20 to 200 expected points the error is known and 95 % of the intervals
+// cover. 28 misses of 300 are 3.5 deviations above the expected 15, alpha = .1 % for each method.
 TEST(Integrate, UndersampledPeaks_ErrorIsUnknown) {
   for (const Method method : methods)
     for (const double least : {0.02, 20.0}) {
@@ -141,8 +142,8 @@ TEST(Integrate, InfiniteVariance_ErrorIsUnknown) {
     }
 }
 
-// Integrals that are infinite, by densities that follow them: 2 to 10 % of the runs had a bar, now less than .5 %. More
-// than 4 of 200 by chance in 4e-3 at that rate, for each method.
+// Infinite integrals, sampled from densities that follow them, must rarely get an error bar. At a rate of .5 %, more
+// than 4 of 200 have probability 4e-3 for each method.
 TEST(Integrate, DivergentIntegrals_ErrorIsUnknown) {
   const std::function<double(Unit)> integrands[] = {
       [](Unit u) { return 1 / u[0]; }, [](Unit u) { return 1 / (1 - u[0]); }, [](Unit u) { return u[1] / u[0]; },
@@ -157,7 +158,8 @@ TEST(Integrate, DivergentIntegrals_ErrorIsUnknown) {
   }
 }
 
-// The neighbours of 1 are where 1 / (1 - u) ends at 2^53: the sum over doubles converged to 37.8, for 9 of 60 seeds.
+// 1 / (1 - u) ends at 2^53 at the last double below 1, so a sum over doubles would converge. The error must still be
+// unknown.
 TEST(Integrate, TailDownToNeighbouringDoubles_ErrorIsUnknown) {
   for (const std::uint64_t s : {1, 5, 12}) {
     mc::IntegrateOptions o;
@@ -181,20 +183,21 @@ TEST(Integrate, SingularitiesAtRandomPlaces) {
       }
 }
 
-// As doubles are that a learned density cannot tell from a singular point: they may hold much of the integral.
+// Infinite points represent doubles that a learned density cannot separate from a singular point. They may contain much
+// of the integral.
 TEST(Integrate, InfinitePoints_ErrorIsUnknown) {
   for (const Method method : methods) {
     const mc::Integral r = mc::integrate_unit(
         [](Unit u) { return u[0] < 1e-4 ? std::numeric_limits<double>::infinity() : u[1]; }, 2, with(method, 200'000));
     EXPECT_NEAR(static_cast<double>(r.infinite_points), 1e-4 * 200'000, 18)
-        << name(method); // 4 sigma of the random ones
+        << name(method); // 4 sigma of the random points
     EXPECT_EQ(r.error_bar, mc::ErrorBar::infinite_variance);
     EXPECT_THAT(r.to_string(), testing::HasSubstr(fmt::format("as is the integrand at {} points", r.infinite_points)));
   }
 }
 
-// The bars of what varies by less than the doubles at its mean lay below one step of these. Student's t of 7 degrees of
-// freedom is beyond 2 in 8.6 %: more than 3 of 8 by chance in 3e-3, for each method.
+// The error must not be smaller than the spacing of doubles at the mean. Student's t with 7 degrees of freedom exceeds
+// 2 with probability 8.6 %. More than 3 of 8 have probability 3e-3 for each method.
 TEST(Integrate, ErrorIsAtLeastOneUlp) {
   for (const Method method : methods) {
     int beyond = 0;
@@ -230,7 +233,7 @@ TEST(Integrate, AutomaticPicksVegasWhereItHelps) {
             Method::plain);
 }
 
-// What a product of axes cannot follow, a tree can: automatic finds it, and its interval holds.
+// A tree follows an integrand that no product of axes follows. automatic must select it, and its interval must cover.
 TEST(Integrate, AutomaticFollowsADiagonal) {
   const auto two_peaks = [](Unit u) {
     double a = 0, b = 0;
@@ -240,7 +243,7 @@ TEST(Integrate, AutomaticFollowsADiagonal) {
     }
     return std::exp(-a / 2) + std::exp(-b / 2);
   };
-  double side = 1; // of one peak, by each axis
+  double side = 1; // integral of one peak along each axis
   for (int d = 0; d < 5; ++d)
     side *= 0.07 * std::sqrt(mc::pi<double> / 2) *
             (std::erf(0.7 / 0.07 / std::sqrt(2.0)) + std::erf(0.3 / 0.07 / std::sqrt(2.0)));
@@ -254,8 +257,8 @@ TEST(Integrate, AutomaticFollowsADiagonal) {
       squares[k] += mc::sqr(r.estimate.value / (2 * side) - 1);
       if (k) covered += r.interval.lo <= 2 * side && 2 * side <= r.interval.hi;
     }
-  EXPECT_LE(std::sqrt(squares[1] / squares[0]), 0.2); // measured .03; 30 errors know their size to 13 %
-  EXPECT_GE(covered, 24); // 28.5 expected; below 25 by chance in 5e-4 of the choices of seeds
+  EXPECT_LE(std::sqrt(squares[1] / squares[0]), 0.2); // measured .03; 30 errors determine their RMS to 13 %
+  EXPECT_GE(covered, 24);                             // 28.5 expected; below 25 by chance for 5e-4 of seed choices
 }
 
 TEST(Integrate, DomainsAndWarps) {
@@ -282,7 +285,7 @@ TEST(Integrate, VectorsShareTheirCalls) {
     ASSERT_EQ(r.outputs.size(), 3u);
     EXPECT_NEAR(r.outputs[0].estimate.value, 0.5, 5 * r.outputs[0].estimate.std_error);
     EXPECT_NEAR(r.outputs[1].estimate.value, 2.5e5, 5 * r.outputs[1].estimate.std_error);
-    // Through the grid even a constant has the weights' noise.
+    // With a grid, even a constant has the noise of the weights.
     EXPECT_NEAR(r.outputs[2].estimate.value, 3, 5 * r.outputs[2].estimate.std_error + 1e-12);
   }
 }
@@ -373,8 +376,8 @@ TEST(IntegrateRqmc, IsWithinItsError) {
   EXPECT_EQ(r.calls, 24u * 4096);
 }
 
-// Few uniform points meet the ridge of a normal of correlation .99 over the whole plane, and its values look heavy to
-// them; under the density they grow no further. All of these had no error.
+// Few uniform points reach the ridge of a normal distribution with correlation .99 in the plane, and their values look
+// heavy-tailed. The values under the learned density grow no further, so the error must be known.
 TEST(Integrate, ARidgeInThePlaneHasAnError) {
   const auto normal = [](std::span<const double> u) {
     double x[2], slope = 1;
@@ -394,7 +397,7 @@ TEST(Integrate, ARidgeInThePlaneHasAnError) {
     o.seed = seed;
     const mc::Integral r = mc::integrate_unit(normal, 2, o);
     EXPECT_EQ(r.error_bar, mc::ErrorBar::known) << seed;
-    EXPECT_NEAR(r.estimate.value, integral, 5 * r.estimate.std_error) << seed; // of ten: alpha = 1e-5
+    EXPECT_NEAR(r.estimate.value, integral, 5 * r.estimate.std_error) << seed; // ten seeds: alpha = 1e-5
   }
 }
 

@@ -21,7 +21,7 @@ template <class S> std::vector<mc::Heuristic<S>> heuristics() {
   return {H::balance(), H::power(2), H::power(S(1.5)), H::power(S(0.5)), H::cutoff(S(0.1)), H::cutoff(1), H::maximum()};
 }
 
-// Every triple of these densities, every heuristic: the weights sum to 1 within (n + 2) eps.
+// For every triple of these densities and every heuristic, the weights must sum to 1 within (n + 2) eps.
 TYPED_TEST(Mis, WeightsSumToOneOverTheWholeRange) {
   using S = TypeParam;
   const S inf = std::numeric_limits<S>::infinity();
@@ -44,7 +44,7 @@ TYPED_TEST(Mis, WeightsSumToOneOverTheWholeRange) {
         }
 }
 
-// Of many techniques too: n = 100 of densities spread over the range.
+// Same for 100 techniques, with densities spread over the range.
 TYPED_TEST(Mis, WeightsOfAHundredTechniquesSumToOne) {
   using S = TypeParam;
   std::vector<S> p, n;
@@ -59,7 +59,8 @@ TYPED_TEST(Mis, WeightsOfAHundredTechniquesSumToOne) {
   }
 }
 
-// The closed forms for two techniques are the general weights: zeros, deltas and counts of 0 too, to 4 eps.
+// The closed forms for two techniques must equal the general weights within 4 eps, also for zeros, deltas and counts of
+// 0.
 TYPED_TEST(Mis, TwoTechniquesWeighAsManyDo) {
   using S = TypeParam;
   using H = mc::Heuristic<S>;
@@ -117,7 +118,7 @@ TEST(Heuristic, RefusesNonsense) {
   for (const double bad : {-0.1, 1.1, double(NAN)}) EXPECT_THROW(H::cutoff(bad), mc::Error) << bad;
 }
 
-// A cone is a warp onto its cap; as a technique it must live on the common domain.
+// A cone is a warp onto its cap. As a technique it must use the common domain.
 struct ConeOnHemisphere {
   using Scalar = double;
   using Domain = mc::Hemisphere<double>;
@@ -128,9 +129,9 @@ struct ConeOnHemisphere {
   template <mc::Real T> ConeOnHemisphere cast() const { return *this; }
 };
 
-// A narrow light of 1e-2 rad in a wide glow: integral over the hemisphere of [a cone of radiance 1000, and 1 elsewhere]
-// cos. Both estimators are unbiased with every heuristic: 5 standard errors, a false alarm in 6e-7 of seeds; the seeds
-// are fixed.
+// A narrow light of 1e-2 rad in a wide glow: integral over the hemisphere of cos times 1000 in a cone and 1 elsewhere.
+// Both estimators are unbiased for every heuristic. 5 standard errors are a false alarm in 6e-7 of seeds; the seeds are
+// fixed.
 TEST(MultipleImportance, IsUnbiasedWithEveryHeuristic) {
   using V = mc::Vec3<double>;
   const auto cone = mc::UniformCone<double>::from_angle(0.01);
@@ -183,7 +184,7 @@ TEST(MultipleImportance, CountsBeyondTheScalar) {
     return mc::MultipleImportance(std::array{a, b}, mc::Heuristic<float>::balance(), Cosine(), Cosine());
   };
   EXPECT_THROW(of(3e38f, 3e38f), mc::Error);
-  // A float that counts in steps of 1 stands still at 2^24.
+  // A float counter with steps of 1 stops at 2^24.
   std::uint64_t asked = 0;
   of(17'000'000, 0)
       .multi_sample([](const auto&) { return 0.0; },

@@ -24,7 +24,7 @@ TEST(Moments, OneToFive) {
   EXPECT_EQ(m.estimate().dof, 4);
 }
 
-// Sums of squares would lose the variance 1/12 beside 1e18.
+// Sums of squares would lose the variance 1/12 next to 1e18.
 TEST(Moments, SurviveCancellation) {
   const std::vector<double> small = uniforms(4096, 0), large = uniforms(4096, 1e9);
   mc::Moments one_by_one, whole;

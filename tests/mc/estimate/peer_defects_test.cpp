@@ -1,5 +1,5 @@
-// Where estimators that renderers ship break, measured on their own code: each defect is named with the figure it gave
-// there, and must not be here. Weights over the whole range of the scalar stand in mis_test.cpp.
+// Defects of estimators in published renderers, found with their own code. Comments give the value of the defect; libmc
+// must not have it. mis_test.cpp tests weights over the whole range of the scalar.
 
 #include <mc/estimate/mis.h>
 #include <mc/estimate/moments.h>
@@ -8,9 +8,9 @@
 
 namespace {
 
-// D3, M11. pbrt-v4 and Mitsuba 3, float: the two weights of the power heuristic sum to NaN or 0 below 1e-23, to 2 or 0
-// above 1e19. Of equal densities each is a half, of a tenfold one 1/101; pbrt's balance heuristic does that, but is NaN
-// for two infinities.
+// D3, M11. pbrt-v4 and Mitsuba 3 in float: the two weights of the power heuristic sum to NaN or 0 below 1e-23, and to 2
+// or 0 above 1e19. The balance heuristic of pbrt-v4 is correct there, but NaN for two infinities. Exact weights are 1/2
+// for equal densities and 1/101 against a density ten times larger.
 TEST(PeerDefects, PowerHeuristicFrom1e30To1e30) {
   for (const float p : {1e-30f, 1e-24f, 1e-23f, 1e-20f, 1.0f, 1e19f, 1.9e19f, 1e20f, 1e30f}) {
     EXPECT_EQ(mc::power_heuristic(1.0f, p, 1.0f, p), 0.5f) << p;
@@ -23,8 +23,8 @@ TEST(PeerDefects, PowerHeuristicFrom1e30To1e30) {
   EXPECT_EQ(mc::power_heuristic(1.0f, 0.0f, 1.0f, 0.0f), 0.0f);
 }
 
-// D15. pbrt-v4: its relative variance divides by the mean instead of its square, 0.4 for N(10, 2). Here an Estimate has
-// the error of its mean, and the ratio is the user's.
+// D15. pbrt-v4 divides the variance by the mean instead of its square for the relative variance, 0.4 for N(10, 2). An
+// Estimate contains the error of its mean and leaves the ratio to the user.
 TEST(PeerDefects, ErrorsAreThoseOfTheMean) {
   mc::Moments m;
   for (int i = 0; i < 1000; ++i) m.add(i % 2 ? 12 : 8);
@@ -32,7 +32,7 @@ TEST(PeerDefects, ErrorsAreThoseOfTheMean) {
   EXPECT_NEAR(m.estimate().std_error, 2 / std::sqrt(1000.0), 1e-4);
 }
 
-// D16. pbrt-v4 counts in float: from 2^24 on a count stands still. Moments of 2^25 values, by merging.
+// D16. pbrt-v4 counts in float, which stops at 2^24. Tests moments of 2^25 values, by merging.
 TEST(PeerDefects, CountsGoBeyond2To24) {
   mc::Moments m;
   m.add(1);

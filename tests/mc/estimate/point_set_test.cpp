@@ -13,7 +13,7 @@
 
 namespace {
 
-// Any window of the sequence, across block borders, has the leading 32 bits of Sobol.
+// Every window of the sequence, also across blocks, must have the leading 32 bits of Sobol.
 TEST(PointSet, SobolBlocksAreTheSequence) {
   constexpr int dim = 9;
   const mc::Sobol sobol(11);
@@ -31,7 +31,7 @@ TEST(PointSet, SobolBlocksAreTheSequence) {
   }
 }
 
-// The bits of two coordinates in turn, and every power of two of points one to an interval: a net in each coordinate.
+// The bits of two coordinates alternate. The first 2^k points have one in each interval, so each coordinate is a net.
 TEST(PointSet, InterlacedBitsAreTwoCoordinatesInTurn) {
   const mc::Sobol sobol(11);
   for (const int dim : {1, 2, 5})
@@ -54,7 +54,7 @@ TEST(PointSet, InterlacedBitsAreTwoCoordinatesInTurn) {
   EXPECT_EQ(cells, std::vector<int>(1024, 1));
 }
 
-// Root mean square error of the mean of prod exp(x_d), over 64 seeds: known to 9 %.
+// RMS error of the mean of prod exp(x_d) over 64 seeds, accurate to 9 %.
 template <class Set> double rms(int dim, std::size_t n) {
   const double truth = std::pow(std::exp(1.0) - 1, dim);
   double sum = 0;
@@ -71,7 +71,7 @@ template <class Set> double rms(int dim, std::size_t n) {
   }
   return std::sqrt(sum / 64);
 }
-// The exponent over 6 doublings: known to sqrt(2) .09 / ln 64 = .03.
+// Exponent over 6 doublings, accurate to sqrt(2) .09 / ln 64 = .03.
 template <class Set> double rate(int dim) { return std::log(rms<Set>(dim, 4096) / rms<Set>(dim, 64)) / std::log(64.0); }
 
 TEST(PointSet, InterlacingGainsAnOrderInOneAndTwoDimensionsOnly) {
@@ -95,8 +95,8 @@ TEST(PointSet, IndependentIsItsSampler) {
   EXPECT_EQ(u[3 * 7 + 2], mc::coordinate<double>(mc::Independent{4}, 27, 2));
 }
 
-// The box of `count` that holds a point of so many dimensions, or as many as there are boxes if none does. In integers,
-// but for the roots; faces are known to 2^-64, points lie at least 2^-52 off them.
+// Index of the box that contains a point, among `count` boxes; `count` if there is none. Uses integers except for the
+// roots. Faces are accurate to 2^-64, and points are at least 2^-52 away from them.
 std::uint64_t box_of(std::span<const double> u, std::uint64_t count) {
   std::uint64_t first = 0, left = count, n = count;
   for (std::size_t axis = 0; axis < u.size(); ++axis) {
@@ -117,7 +117,8 @@ std::uint64_t box_of(std::span<const double> u, std::uint64_t count) {
   return first;
 }
 
-// Boxes of the first group of dimensions come in order, those of others in that of a permutation of their own.
+// The boxes of the first group of dimensions are in order, the boxes of further groups in the order of their
+// permutation.
 void expect_boxes(const mc::JitteredBoxes& set, std::uint64_t first, std::size_t points, std::size_t dim) {
   std::vector<double> u(points * dim);
   mc::fill_points(set, first, static_cast<int>(dim), u);
@@ -156,8 +157,8 @@ TEST(PointSet, JitteredBoxesAreTheSameInAnyCut) {
   EXPECT_EQ(whole, parts);
 }
 
-// Where in its box a point lies: first and second moments of each coordinate, and products of two, within 5 standard
-// deviations: 99 figures, a false alarm in 6e-5 of seeds.
+// Distribution of points within their box: first and second moments of each coordinate and products of two within 5
+// standard deviations. These are 99 tests, a false alarm in 6e-5 of seeds.
 TEST(PointSet, JitteredBoxesAreFilledEvenly) {
   constexpr std::size_t dim = 9, n = 200'000;
   std::vector<double> u(dim);

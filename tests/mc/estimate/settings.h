@@ -1,5 +1,5 @@
 #pragma once
-// Runs of integrate() that use up their calls.
+// Options for runs of integrate() that use up their calls.
 
 #include <mc/estimate/integrate.h>
 

@@ -1,4 +1,4 @@
-// Several outputs, points in blocks, and what the rounds of a run tell.
+// Several outputs, points in blocks, and the diagnostics of rounds.
 
 #include <mc/core/error.h>
 #include <mc/estimate/integrate.h>
@@ -17,7 +17,7 @@ using Unit = std::span<const double>;
 using mc::Method;
 constexpr auto& methods = support::all_methods;
 
-// exp(c . u) for two random c that differ by a tenth: their integrals are off together.
+// exp(c . u) for two random c that differ by a tenth, so that the errors of their integrals are correlated.
 struct Pair {
   std::size_t dim;
   std::vector<double> c[2];
@@ -40,9 +40,9 @@ struct Pair {
   }
 };
 
-// The error of a ratio by the covariances: small beside those of the two, and as large as said. The mean of 80 squared
-// deviates of Student's t with 23 degrees of freedom has a standard deviation of .2 about 1.05: the bounds are 3.5 of
-// them away.
+// The error of a ratio by the covariances must be calibrated, and small compared with the errors of both integrals. The
+// mean of 80 squared deviates of Student's t with 23 degrees of freedom is 1.05 with a standard deviation of .2. The
+// bounds are 3.5 of these away.
 TEST(VectorIntegral, CovariancesGiveTheErrorOfARatio) {
   for (const Method method : methods) {
     double squares = 0, reduction = 0;
@@ -131,7 +131,7 @@ TEST(IntegrateRounds, AddUpToTheWhole) {
     EXPECT_EQ(calls, r.calls) << name(method);
     EXPECT_NEAR(chi2, r.chi2, 1e-12 * r.chi2) << name(method);
     EXPECT_EQ(dof, r.chi2_dof) << name(method);
-    EXPECT_TRUE(answer || method == Method::stratified) << name(method); // which weighs all its rounds
+    EXPECT_TRUE(answer || method == Method::stratified) << name(method); // stratified averages all of its rounds
   }
 }
 

@@ -32,8 +32,8 @@ TEST(RmsError, IsScaleFree) {
   EXPECT_EQ(mc::rms_error(16, std::vector<double>{0, 0}, 0).rms, 0);
 }
 
-// One error in sixteen is not 0. Of 128 errors, 8 +- 2.7 are not 0, and an interval for normal errors would contain the
-// truth only for 7 to 10. At coverage 90 %, fewer than 340 hits of 400 have probability 1e-3.
+// One error in sixteen is not 0. Among 128 errors, 8 +- 2.7 are not 0, and an interval for normal errors would contain
+// the truth only for 7 to 10. At coverage 90 %, fewer than 340 hits of 400 have probability 1e-3.
 TEST(RmsError, IntervalHoldsTheErrorOfALongTail) {
   int hits = 0;
   for (std::uint64_t run = 0; run < 400; ++run) {

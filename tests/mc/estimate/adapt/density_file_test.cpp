@@ -42,7 +42,7 @@ std::string refusal(const std::string& text) {
   return support::error_of([&] { mc::density_from_text(text); });
 }
 
-// Every byte changed, every length: each is refused in one line.
+// Every changed byte and every truncation must be rejected with a one-line message.
 TEST(DensityFile, DamagedTextIsRejected) {
   const std::string whole = mc::to_text(made(7, 2, 10));
   for (std::size_t i = 0; i < whole.size(); ++i) {
@@ -56,7 +56,7 @@ TEST(DensityFile, DamagedTextIsRejected) {
   EXPECT_NE(refusal(whole + "\n"), "");
 }
 
-// What a program that writes its own density may get wrong: the checksum fits.
+// Errors that another program may make when it writes a density; the checksum is correct.
 TEST(DensityFile, ErrorsNameTheLine) {
   const auto summed = [](const std::string& body) {
     std::uint64_t h = 0xcbf29ce484222325;

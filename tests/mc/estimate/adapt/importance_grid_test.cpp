@@ -10,7 +10,7 @@ namespace {
 
 using mc::ImportanceGrid;
 
-// Refines a 1-D grid on f at the middle of many equal parts of each bin.
+// Refines a one-dimensional grid on f at the midpoints of 64 equal parts of each bin.
 template <class F> ImportanceGrid learned(F&& f, int rounds) {
   ImportanceGrid grid(1);
   for (int k = 0; k < rounds; ++k) {
@@ -55,7 +55,7 @@ TEST(ImportanceGrid, MapsTheCubeOntoItself) {
     EXPECT_GE(u[0], 0);
     EXPECT_LT(u[0], 1);
     EXPECT_GT(jacobian, 0);
-    EXPECT_LE(jacobian, 12.501); // a tenth of the probability is uniform, before at most a quarter more bins
+    EXPECT_LE(jacobian, 12.501); // a tenth of the probability is uniform, and at most a quarter more bins are added
   }
 }
 
@@ -66,9 +66,9 @@ TEST(ImportanceGrid, RefineConcentratesBinsAtLargeValues) {
   EXPECT_GE(inside, ImportanceGrid::bins / 2);
 }
 
-// What no point met beside a peak is met by the next: bins widen by steps, of 8^3 at most (the first power of 8 at
-// which these peaks need at most a quarter more bins, whose edges are then shared among 128), and right beside the peak
-// there is far more than the uniform tenth.
+// Checks the gradual growth of bins, because the flanks of a peak may contain no point. Neighbouring bins differ by at
+// most 8^3, the first power of 8 for which these peaks need at most a quarter more bins. Redistribution over 128 bins
+// adds a factor 1.25. Directly beside the peak the density is far above the uniform tenth.
 TEST(ImportanceGrid, BinsWidenStepwiseAwayFromPeaks) {
   for (const double width : {1e-2, 1e-3}) {
     const ImportanceGrid grid = learned([width](double x) { return std::abs(x - 0.4) < width ? 1.0 : 0.0; }, 12);
@@ -84,7 +84,7 @@ TEST(ImportanceGrid, BinsWidenStepwiseAwayFromPeaks) {
   }
 }
 
-// Edges near 0 keep their digits.
+// Edges near 0 keep their relative precision.
 TEST(ImportanceGrid, ResolvesAPoleAtZero) {
   const ImportanceGrid grid = learned([](double x) { return std::pow(x, -0.97); }, 40);
   const std::span<const double> e = grid.edges(0);
@@ -92,9 +92,9 @@ TEST(ImportanceGrid, ResolvesAPoleAtZero) {
   for (std::size_t i = 0; i < ImportanceGrid::bins; ++i) EXPECT_LT(e[i], e[i + 1]) << i;
 }
 
-// Of a constant there is nothing to learn but the noise of the points: one round of 128 to 8192 random ones, 64 behind
-// each bin. A count of 64 is off by 1/8, its root by 1/16, and the worst of 128 bins by 4 of those. Unpooled, bins
-// without a point get 10.
+// For a constant, only noise could be learned. Tests one round of 128 to 8192 random points, with 64 behind each bin. A
+// count of 64 has a relative deviation of 1/8 and its root 1/16. The worst of 128 bins deviates by 4 of these. Without
+// pooling, bins without a point would reach 10.
 TEST(ImportanceGrid, Refine_FewPoints_DoesNotFitNoise) {
   for (const std::size_t points : {128u, 512u, 2048u, 8192u}) {
     const mc::Independent sampler{points};

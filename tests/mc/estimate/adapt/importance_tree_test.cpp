@@ -18,7 +18,7 @@ template <class F> mc::WeightedSamples samples_of(int dim, std::size_t n, F&& f)
   return s;
 }
 
-// Either axis alone shows nothing of it: the first cuts gain nothing.
+// Single axes show no structure of this integrand, so the first cuts gain nothing.
 TEST(ImportanceTree, FollowsNonSeparableIntegrand) {
   const auto checks = [](std::span<const double> x) { return (x[0] < 0.5) == (x[1] < 0.5) ? x[2] : 0.0; };
   const mc::BoxTree tree = mc::importance_tree(samples_of(3, 8000, checks));
@@ -28,7 +28,7 @@ TEST(ImportanceTree, FollowsNonSeparableIntegrand) {
   EXPECT_GT(density(0.7, 0.9), 4 * density(0.7, 0.2));
 }
 
-// Of noise there is nothing to learn: what one half of the points promises the other does not confirm.
+// Noise must not be learned: the second half of the points does not confirm the cuts proposed by the first.
 TEST(ImportanceTree, DoesNotSplitOnNoise) {
   std::size_t leaves = 0;
   for (std::uint64_t k = 0; k < 20; ++k) {
@@ -36,7 +36,7 @@ TEST(ImportanceTree, DoesNotSplitOnNoise) {
     const auto noise = [&](std::span<const double>) { return 1 + mc::hash_uniform<double>(2, k, i++); };
     leaves += mc::importance_tree(samples_of(4, 3000, noise)).leaves();
   }
-  EXPECT_LE(leaves, 100u); // of 20 trees with up to 90 boxes each
+  EXPECT_LE(leaves, 100u); // 20 trees with up to 90 boxes each would be possible
 }
 
 TEST(ImportanceTree, KeepsATenthUniform) {
@@ -46,7 +46,7 @@ TEST(ImportanceTree, KeepsATenthUniform) {
   EXPECT_GT(tree.density(tree.leaf_of_x(std::array{0.05, 0.05})), 5);
 }
 
-// No point beside the peak says so, but a share of the boxes that hold it is left there.
+// Boxes that contain the peak keep a share of the probability beside it, although no point there indicates it.
 TEST(ImportanceTree, KeepsProbabilityBesideAPeak) {
   const auto corner = [](std::span<const double> x) { return x[0] < 0.1 && x[1] < 0.1 ? 1.0 : 0.0; };
   const mc::BoxTree tree = mc::importance_tree(samples_of(2, 20'000, corner));

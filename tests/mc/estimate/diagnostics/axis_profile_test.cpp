@@ -15,7 +15,7 @@ namespace {
 using mc::detail::AxisProfile;
 using Point = std::array<double, 2>;
 
-// The profile of 24 replicates of so many points, both coordinates stratified.
+// Profile of 24 replicates of `points` points each, stratified in both coordinates.
 double jump(double (*f)(const Point&), std::size_t points, std::uint64_t seed) {
   AxisProfile all;
   mc::Pcg random(seed);
@@ -64,8 +64,8 @@ TEST(AxisProfile, SlopesKinksAndPeaksAreNotJumps) {
     }
 }
 
-// Interlaced points of a replicate are off together, and 21 of 400 runs showed a jump of exp(x + y) for good: the error
-// was a thousand times too wide. 3 of 1000 are left, one of these 100 seeds at most (alpha .03).
+// Points of an interlaced replicate have correlated errors, which must not look like a jump: the error would be far too
+// wide and the run slow. A false jump remains in 3 of 1000 runs. More than one of 100 seeds has probability .03.
 TEST(AxisProfile, SmoothIntegrandsConvergeWhateverTheSeed) {
   int slow = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -81,9 +81,9 @@ TEST(AxisProfile, SmoothIntegrandsConvergeWhateverTheSeed) {
 
 TEST(AxisProfile, IsEmptyWithoutPoints) { EXPECT_EQ(AxisProfile().jump(0, 3, 24), 0); }
 
-// Replicates have as many points before the step in one run of twelve, and only their smooth part differs then: 86 % of
-// these intervals held, and 7 % of the means were six standard errors off. 94 to 95 % hold: 34 of 300 are four
-// deviations beyond 18, alpha = 1e-4; so are 7 beyond 1.
+// In one of twelve runs, all replicates have equally many points before the step, and only the smooth part differs. The
+// interval must still cover. At a coverage of 94 %, 34 misses of 300 are four deviations above the expected 18, alpha =
+// 1e-4. The same holds for 7 far misses where 1 is expected.
 TEST(AxisProfile, JumpPlusSmoothPart_IntervalsCover) {
   int missed = 0, far = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {

@@ -56,17 +56,17 @@ TEST(OctaveHistogram, UndersampledWhereFewValuesHoldTheSum) {
   EXPECT_FALSE(undersampled({}));
   EXPECT_FALSE(undersampled({0, 0, 0}));
   EXPECT_FALSE(undersampled({7}));
-  EXPECT_FALSE(undersampled({0, 0, 1, 1, 0})); // a step that two points met
+  EXPECT_FALSE(undersampled({0, 0, 1, 1, 0})); // a step with two points beyond it
   EXPECT_FALSE(undersampled(std::vector<double>(1000, -3)));
   EXPECT_TRUE(undersampled({1, 1e-5, 1e-9, 0, 0}));
-  EXPECT_TRUE(undersampled({1, 1e-80, 1e-200})); // all but one below the octaves that are told apart
+  EXPECT_TRUE(undersampled({1, 1e-80, 1e-200}));                     // all but one below the lowest octave
   EXPECT_TRUE(undersampled({1e-308, 1e-313, 1e-317, 5e-324, 0, 0})); // subnormal
   std::vector<double> one(1000);
   one.front() = -2;
-  EXPECT_TRUE(undersampled(one)); // the others that are not 0 may be of any size
+  EXPECT_TRUE(undersampled(one)); // further nonzero values may have any size
   one.back() = -2;
   EXPECT_FALSE(undersampled(one));
-  for (const auto& [index, few] : {std::pair{0.2, true}, {2.0, false}}) // 16 know an index to a quarter of it
+  for (const auto& [index, few] : {std::pair{0.2, true}, {2.0, false}}) // 16 values determine the index to a quarter
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
       EXPECT_EQ(undersampled(powers(seed, 5000, 1 / index)), few) << index << " seed " << seed;
 }
@@ -81,13 +81,14 @@ TEST(OctaveHistogram, MeanMagnitudeIsWithinAFactorOfTwo) {
   }
 }
 
-// Above the largest value of a power law with the index a lies a / (a - 1) max^(1 - a) of the mean. Sixteen values know
-// an index to a quarter: medians are compared, up to a factor that this makes for an index of 1.5.
+// The part of the mean above the largest value of a power law with index a is a / (a - 1) max^(1 - a). Sixteen values
+// determine the index to about a quarter. The test compares medians, with the factor that this gives for an index of
+// 1.5.
 TEST(OctaveHistogram, ExtrapolatedTailMeanOfAPowerLaw) {
   mc::OctaveHistogram none, equal;
   equal.add(std::vector<double>{0, 3, -3, 3});
   EXPECT_EQ(none.extrapolated_tail_mean(), 0);
-  EXPECT_EQ(equal.extrapolated_tail_mean(), 0); // as those of a step
+  EXPECT_EQ(equal.extrapolated_tail_mean(), 0); // like values of a step
   for (const double index : {1.5, 2.0, 4.0}) {
     std::vector<double> ratio;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Uniform points, or those of a grid of 128 bins whose edges follow x^-b, with what they stand for.
+// Uniform points, or points of a grid of 128 bins with edges that follow x^-b, with the volumes that they represent.
 struct Points {
   std::vector<double> x, volumes;
 
@@ -43,8 +43,8 @@ std::function<double(double)> power(double p) {
   return [p](double x) { return std::pow(x, -p); };
 }
 
-// The standard deviation that is stated, a / 8, over 40 samples, which know it to 11 %; the bound is 2.5 of that
-// beyond, alpha = 1e-2 for each of 9 bounds, with fixed seeds. Points of any density say the same.
+// Checks the documented standard deviation a / 8 over 40 samples, which determine it to 11 %. The bound is 2.5 of these
+// beyond, alpha = 1e-2 for each of 9 bounds, with fixed seeds. All densities must give the same index.
 TEST(TailIndexEstimator, IndexOfAPowerLawFromAnyDensity) {
   for (const double b : {0.0, 0.4, 0.8})
     for (const double p : {0.3, 0.5, 0.9}) {
@@ -52,7 +52,7 @@ TEST(TailIndexEstimator, IndexOfAPowerLawFromAnyDensity) {
       int known = 0;
       for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const double index = Points(seed, 10'000, b).tail(power(p)).index();
-        if (index == infinity) continue; // looks as though it grew
+        if (index == infinity) continue; // the index appears to grow
         ++known;
         squares += std::pow(index * p - 1, 2);
       }
@@ -61,8 +61,8 @@ TEST(TailIndexEstimator, IndexOfAPowerLawFromAnyDensity) {
     }
 }
 
-// Of 40 samples of 10'000 points; the seeds are fixed. A share of 98 % falls below 36 of 40 once in 500 times; on the
-// border, where it is .8, below 24 as often.
+// 40 samples of 10'000 points with fixed seeds. A detection rate of 98 % gives fewer than 36 of 40 with probability
+// 1/500. On the border, where the rate is .8, fewer than 24 have the same probability.
 TEST(TailIndexEstimator, DetectsInfiniteVariance) {
   for (const double b : {0.0, 0.4, 0.8}) {
     std::vector<Points> samples;
@@ -74,7 +74,7 @@ TEST(TailIndexEstimator, DetectsInfiniteVariance) {
     EXPECT_GE(named(power(0.9)), 36) << b;
     EXPECT_GE(named(power(0.6)), 36) << b;
     EXPECT_GE(named(power(0.5)), 24) << b; // on the border
-    // Of a part of the volume, beside nothing or little: the tail ends there, and does not grow.
+    // Tails on a part of the volume, with nothing or little elsewhere: the tail must not appear to grow where it ends.
     EXPECT_GE(named([](double x) { return x < 0.3 ? std::pow(x, -0.7) : 0.0; }), 36) << b;
     EXPECT_GE(named([](double x) { return x < 0.3 ? std::pow(x, -0.7) : 1e-3; }), 36) << b;
     EXPECT_LE(named(power(0.4)), 1) << b;
@@ -83,7 +83,7 @@ TEST(TailIndexEstimator, DetectsInfiniteVariance) {
     EXPECT_LE(named([](double x) { return x < 1e-2 ? 1.0 : 0.0; }), 1) << b;
     EXPECT_LE(named([](double x) { return 1 + 0.1 * std::exp(-x / 1e-2); }), 1) << b;
     if (b > 0) {
-      EXPECT_GE(named([](double x) { return 1 + 1e-2 * std::pow(x, -0.9); }), 36) << b; // below something larger
+      EXPECT_GE(named([](double x) { return 1 + 1e-2 * std::pow(x, -0.9); }), 36) << b; // below a larger constant
     }
   }
 }

@@ -25,7 +25,7 @@ TEST(Correlations, AreScaleInvariant) {
   }
 }
 
-// Of two independent rounds: the covariances add, each with the square of its share.
+// For two independent rounds, the covariances add with the squares of their shares.
 TEST(Correlations, CombineAsTheMeansDo) {
   const mc::detail::Means a = {{0, 1, 9}, {0, 2, 9}}, b = {{0, 3, 9}, {0, 0.5, 9}};
   const double share = 0.3, xx = 0.7 * 0.7 * 1 + 0.3 * 0.3 * 9, yy = 0.7 * 0.7 * 4 + 0.3 * 0.3 * 0.25;

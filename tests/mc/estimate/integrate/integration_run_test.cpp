@@ -38,11 +38,11 @@ TEST(IntegrationRun, MeansAreThoseOfTheReplicates) {
   EXPECT_EQ(mean.dof, 23);
 }
 
-// Both parts of the mixture with their shares, and what was subtracted added again, are the integral for any grid.
+// The weighted sum of both parts of the mixture plus the subtracted control must be the integral for any grid.
 TEST(IntegrationRun, MixtureIsUnbiased) {
   mc::AdaptedDensity density{mc::ImportanceGrid(2)};
   std::vector<double> power(2 * mc::ImportanceGrid::bins, 1e-3);
-  for (std::size_t i = 0; i < 20; ++i) power[i] = power[200 + i] = 1; // where the integrand is not
+  for (std::size_t i = 0; i < 20; ++i) power[i] = power[200 + i] = 1; // where the integrand is small
   density.grid.refine(power, 100'000);
   const std::vector<mc::BoxTreeNode> nodes = {
       {0, 0.3}, {mc::BoxTreeNode::leaf, 5}, {1, 0.6}, {mc::BoxTreeNode::leaf, 1}, {mc::BoxTreeNode::leaf, 2}};
@@ -84,7 +84,8 @@ TEST(IntegrationRun, ReplicatesAndStreamsDiffer) {
   EXPECT_EQ(a[1].outputs[0].mean(), again[0].outputs[0].mean());
 }
 
-// What x^-1/2 is added to is known to within its own least value; of what has no tail, or is all tail, nothing is.
+// The constant below x^-1/2 is determined up to its least value. An integrand without a tail, or with nothing but a
+// tail, gives 0.
 TEST(IntegrationRun, FindsTailOffsets) {
   const auto floors_of = [](const std::function<double(std::span<const double>)>& f) {
     mc::IntegrateOptions o;
@@ -107,8 +108,8 @@ TEST(IntegrationRun, FindsTailOffsets) {
   EXPECT_EQ(floors_of([](std::span<const double> u) { return std::pow(u[0], -0.7); })[0], 0);
 }
 
-// A constant does not hide a tail whose variance is infinite: 30 of 40 runs at least name it, of x^-3/4 all but one,
-// where one and seven did if only f itself was looked at. Nor is exp(-3 sum x) taken for such a tail.
+// A constant must not hide a tail of infinite variance. At least 30 of 40 runs must detect x^-1/2, and all but one
+// x^-3/4. exp(-3 sum x) must not count as such a tail.
 TEST(IntegrationRun, TailPlusConstant_InfiniteVarianceIsDetected) {
   int root = 0, steep = 0, light = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

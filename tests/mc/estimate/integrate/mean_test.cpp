@@ -30,9 +30,9 @@ TEST(Mean, WelchLiesBetweenTheSmallerAndTheSum) {
 }
 
 TEST(Mean, ZScoreIsThatOfANormal) {
-  // Student's t of many degrees of freedom is the normal.
+  // Student's t with many degrees of freedom is normal.
   EXPECT_NEAR(mc::detail::z_score({0, std::sqrt(0.5), 1e9}, {2, std::sqrt(0.5), 1e9}).value(), 2, 1e-6);
-  // 2.069 is the 97.5 % quantile of 23 degrees of freedom, 1.960 that of the normal.
+  // 2.069 is the 97.5 % quantile for 23 degrees of freedom, 1.960 the normal one.
   EXPECT_NEAR(mc::detail::z_score({0, 1, 23}, {2.0687, 0, 23}).value(), 1.95996, 1e-4);
   EXPECT_FALSE(mc::detail::z_score({1, 0, 23}, {2, 0, 23}).has_value());
   EXPECT_LE(mc::detail::z_score({1, 1e-20, 23}, {1 + 1e-15, 0, 23}).value(), 1); // rounding is no disagreement
@@ -58,7 +58,7 @@ TEST(Mean, UnsampledTailBound_WidensTheIntervalOrMakesTheErrorUnknown) {
   const Mean met{-10, 0.1, 23}, little{-10, 0.1, 23, 0, mc::ErrorBar::known, -0.2},
       much{-10, 0.1, 23, 0, mc::ErrorBar::known, -2};
   const auto inside = mc::detail::interval(met, 0.95), beside = mc::detail::interval(little, 0.95);
-  EXPECT_DOUBLE_EQ(beside.lo, inside.lo - 0.2); // on its side only
+  EXPECT_DOUBLE_EQ(beside.lo, inside.lo - 0.2); // only on the side of the bound
   EXPECT_EQ(beside.hi, inside.hi);
   EXPECT_EQ(mc::detail::estimate(little, 1).std_error, mc::detail::estimate(met, 1).std_error);
   EXPECT_NEAR(mc::detail::estimate(much, 1).std_error / mc::detail::estimate(met, 1).std_error, std::hypot(1, 20),
@@ -69,18 +69,18 @@ TEST(Mean, UnsampledTailBound_WidensTheIntervalOrMakesTheErrorUnknown) {
   EXPECT_EQ(mc::detail::interval(most, 0.95).hi, std::numeric_limits<double>::infinity());
 }
 
-// A density that follows a part of the integrand: sixteen values that fall off with an index of 1.
+// A density that follows only a part of the integrand: sixteen values fall off with an index of 1.
 TEST(Mean, UnsampledTailBound_FewLargeValuesOfALearnedDensity_IsInfinite) {
   std::vector<double> values(5000, 1.0), volumes(5000, 1.0);
-  for (int octave = 0; octave < 5; ++octave) // 1, 2, 4, 8, 16 of 2048, 1024, ... 128
+  for (int octave = 0; octave < 5; ++octave) // 1, 2, 4, 8, 16 values of 2048, 1024, ... 128
     for (int i = 0; i < 1 << octave; ++i)
       values[static_cast<std::size_t>((1 << octave) + i)] = -std::ldexp(2048.0, -octave);
   mc::detail::IntegrandDiagnostics baseline = diagnostics_of(values), learned = baseline;
   learned.tail.add(values, volumes);
   EXPECT_EQ(mc::detail::unsampled_tail_bound(baseline, 1), 0);
-  const double largest = 2048.0 / 5000; // of a mean size of 3
+  const double largest = 2048.0 / 5000; // for a mean magnitude of 3
   EXPECT_EQ(mc::detail::unsampled_tail_bound(learned, largest), -std::numeric_limits<double>::infinity());
-  EXPECT_EQ(mc::detail::unsampled_tail_bound(learned, largest / 3), 0); // replicates agree too well for that
+  EXPECT_EQ(mc::detail::unsampled_tail_bound(learned, largest / 3), 0); // the replicates agree too well for such values
 }
 
 TEST(Mean, SkewOfAMean) {
@@ -100,7 +100,7 @@ TEST(MeanOfReplicates, EqualReplicatesHaveAnError) {
   EXPECT_DOUBLE_EQ(step.error, 0.75 / 64 / replicates);
   ReplicateHistory other;
   const Mean constant = mean_of_replicates(halves, 64, diagnostics_of({0.5, 0.5}), other);
-  // 95 % bound of the rule of three on the mass of what was not seen, times the size seen: 3 / N of it.
+  // The rule of three bounds the mass of unsampled regions with 95 % confidence: 3 / N, times the sampled size.
   const mc::Estimate::Interval i = mc::detail::interval(constant, 0.95);
   EXPECT_NEAR(i.hi - 0.5, 0.5 * 3 / (64 * replicates), 0.05 * (i.hi - 0.5));
   ReplicateHistory nothing;
@@ -122,10 +122,9 @@ TEST(MeanOfReplicates, IdenticalReplicates_SetZeroSpread) {
   EXPECT_FALSE(mc::detail::combine_independent(equal, apart, 0.5).zero_spread);
 }
 
-// Steps of random heights at random places beside a smooth part that is soon exact: each replicate has one point more
-// or none beyond the step, and where the place is close to a multiple of 1 / points, all have as many. As long as jumps
-// were forgotten after four lengths 16 of 2000 runs were beyond ten of their errors. A few are left, whose steps showed
-// at one length alone.
+// Steps of random heights at random places, plus a smooth part that soon becomes exact. Each replicate has either of
+// two numbers of points beyond the step. If the place is close to a multiple of 1 / points, all replicates have the
+// same number. A few runs remain far off, with steps that appeared at one length only.
 TEST(MeanOfReplicates, RemembersAJumpThatReplicatesAgreeOn) {
   int beyond = 0;
   for (std::uint64_t run = 0; run < 2000; ++run) {
@@ -145,8 +144,8 @@ TEST(MeanOfReplicates, RemembersAJumpThatReplicatesAgreeOn) {
   EXPECT_LE(beyond, 4);
 }
 
-// A step of 4.4 whose integral is .009: replicates that agree differ by the rounding of their sums, which is that of
-// the values and not that of their mean.
+// A step of 4.4 with an integral of .009. The rounding error that separates equal replicates depends on the size of the
+// values, not on the size of their mean.
 TEST(MeanOfReplicates, RoundingByCancellationIsNotSpread) {
   ReplicateHistory history;
   std::vector<double> means(replicates, 0.009);
@@ -167,7 +166,7 @@ TEST(MeanOfReplicates, IdenticalAfterSpread_KeepsTheLastDeviation) {
         before, 1e-3 * before);
 }
 
-// Where a tail makes an error the mean of two lengths, both may have come to agree.
+// With a heavy tail, the error combines two lengths, and replicates may agree at both.
 TEST(MeanOfReplicates, IdenticalAfterSpread_HeavyTail_KeepsTheLastDeviation) {
   std::vector<double> values(4096);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -177,14 +176,14 @@ TEST(MeanOfReplicates, IdenticalAfterSpread_HeavyTail_KeepsTheLastDeviation) {
   ReplicateHistory history;
   std::vector<double> means(replicates, 1.5);
   for (std::size_t i = 0; i < replicates; ++i) means[i] += 1e-9 * static_cast<double>(i);
-  const double before = 1e-9 * std::sqrt((replicates + 1) / 12.0); // a uniform distribution's, of their mean
+  const double before = 1e-9 * std::sqrt((replicates + 1) / 12.0); // deviation of the mean of uniform numbers
   mean_of_replicates(means, 64, cube, history);
   for (const double points : {128.0, 256.0, 512.0, 1024.0})
     EXPECT_GE(mean_of_replicates(std::vector<double>(replicates, 1.5), points, cube, history).error, 0.7 * before)
         << points;
 }
 
-// Of skewed replicates the next length may just have met nothing large.
+// For skewed replicates, the next length may have sampled no large value by chance.
 TEST(MeanOfReplicates, SkewedReplicates_KeepTheLastDeviation) {
   for (const double size : {1.0, 0.01}) {
     ReplicateHistory history;
@@ -198,7 +197,7 @@ TEST(MeanOfReplicates, SkewedReplicates_KeepTheLastDeviation) {
   }
 }
 
-// Share of 95 % intervals that hold the truth, of 4000.
+// Share of 4000 intervals of 95 % that contain the exact value.
 double covered(double index, const std::function<double(std::uint64_t, std::vector<double>&)>& draw) {
   mc::detail::IntegrandDiagnostics tail;
   for (std::uint64_t i = 1; i <= 20'000; ++i)
@@ -215,7 +214,8 @@ double covered(double index, const std::function<double(std::uint64_t, std::vect
   return hits / 4000.0;
 }
 
-// Binomial deviation of 4000: .0035. The promise is .93 to .97; what a distribution reaches differs by its shape.
+// The binomial deviation of 4000 trials is .0035. The required coverage is .93 to .97; the coverage depends on the
+// shape of the distribution.
 TEST(MeanOfReplicates, IntervalsCover) {
   const auto uniform = [](std::uint64_t i, std::size_t r) { return mc::hash_uniform<double>(8, i, r); };
   const double smooth = covered(0, [&](std::uint64_t i, std::vector<double>& x) {
@@ -234,7 +234,7 @@ TEST(MeanOfReplicates, IntervalsCover) {
   }
 }
 
-// A jump of height 1 at a random place: each replicate has one point more or not, 24 trials of a random probability.
+// A jump of height 1 at a random place adds one point to a replicate or none: 24 trials of a random probability.
 TEST(MeanOfReplicates, IntervalsCoverJumps) {
   int hits = 0;
   for (std::uint64_t i = 0; i < 4000; ++i) {

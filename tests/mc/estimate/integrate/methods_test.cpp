@@ -15,7 +15,7 @@ const std::function<double(std::span<const double>)> near_pole = [](std::span<co
   return 1 / (1e-3 + mc::sqr(u[0] - 0.4));
 };
 
-// Each keeps to its calls, leaves its latest means behind and says which method it was.
+// Each method must respect its calls, store its latest means and report its name.
 TEST(Methods, DoNotExceedMaxCalls) {
   for (const std::uint64_t calls : {500u, 5000u, 77'777u}) {
     mc::IntegrateOptions o;
@@ -42,8 +42,8 @@ TEST(Methods, DoNotExceedMaxCalls) {
   }
 }
 
-// Whatever the calls and the replicates: no call too many, and fewer left over than are spent; of up to eight
-// replicates none is missing in the end, of more a third is left.
+// For any number of calls and replicates, no run exceeds its calls, and the rest is smaller than the calls spent. Up to
+// eight replicates are all kept; of more, at least a third.
 TEST(Methods, SpendMostCallsOfAnyBudget) {
   std::mt19937_64 random(20261122);
   for (int i = 0; i < 60; ++i) {
@@ -64,14 +64,14 @@ TEST(Methods, SpendMostCallsOfAnyBudget) {
   }
 }
 
-// The end of sequences: where the error falls faster than that of independent points fewer and longer ones leave less
-// of it; where it does not, all replicates stay, but for the few seeds where it seems to by chance.
+// If the error falls faster than for independent points, a run must end with fewer and longer sequences. If not, all
+// replicates remain, except for a few seeds.
 TEST(Methods, EndWithFewerLongerSequencesWhereVarianceIsLower) {
   const std::function<double(std::span<const double>)> smooth = [](std::span<const double> u) {
     return std::exp(u[0] - 0.3 * u[1]);
   };
   const std::function<double(std::span<const double>)> rough = [](std::span<const double> u) {
-    return std::fmod(1e6 * std::sin(1e6 * u[0] + 3e5 * u[1]), 1.0); // no two points have to do with each other
+    return std::fmod(1e6 * std::sin(1e6 * u[0] + 3e5 * u[1]), 1.0); // values at different points are unrelated
   };
   const double truth = (std::exp(1) - 1) * (1 - std::exp(-0.3)) / 0.3;
   double ended = 0, even = 0;
@@ -90,13 +90,13 @@ TEST(Methods, EndWithFewerLongerSequencesWhereVarianceIsLower) {
     stay += mc::integrate_unit(rough, 2, o).estimate.dof >= 23;
   }
   EXPECT_GE(stay, 20);
-  // Both sums know themselves to a quarter (30 squares of a normal); of interlaced points in two dimensions the
-  // variance falls by up to 32 for each doubling.
+  // The standard error of both sums is about a quarter (30 squares of a normal). The variance of interlaced points in
+  // two dimensions falls by up to a factor 32 for each doubling.
   EXPECT_LT(ended, even / 2);
 }
 
-// So few that what was learned cannot be held against baseline points: of 48 to 71, 24 more were spent than there are, and
-// what was left, a negative number, had no end.
+// With very few calls, the learned density cannot be compared with the baseline points. The number of remaining calls
+// must not underflow.
 TEST(Methods, Automatic_FewCalls_DoesNotExceedMaxCalls) {
   for (std::uint64_t calls = 48; calls <= 200; ++calls) {
     mc::IntegrateOptions o;
@@ -108,10 +108,9 @@ TEST(Methods, Automatic_FewCalls_DoesNotExceedMaxCalls) {
   }
 }
 
-// A long thin Gaussian that follows no axis, .015 % of the volume: baseline points that met none of it have the least
-// variance, and short rounds of learning do not meet the whole of it. Of these seeds auto once ended with baseline points
-// in 4, and had an error over 10 % in 9. With grids that followed single points 19 of the 24 intervals held, and of 100
-// seeds two were off by 78 and 159 %.
+// A long thin Gaussian along no axis, on .015 % of the volume. Baseline points that miss it have the least variance,
+// and short learning rounds sample only a part of it. A run must neither end with the baseline points nor have a large
+// error.
 TEST(Methods, Automatic_NarrowRidge_FindsTheWholeIntegral) {
   const std::function<double(std::span<const double>)> ridge = [](std::span<const double> u) {
     const double x = u[0] - 0.5, y = u[1] - 0.5, z = u[2] - 0.5, along = (x + 2 * y + 2 * z) / 3;
@@ -148,12 +147,12 @@ TEST(Methods, LearnDensity_ConcentratesAtThePeak) {
   EXPECT_EQ(last->means[0].value, run.rounds.back().means[0].value);
   EXPECT_FALSE(run.rounds.empty());
   EXPECT_LE(run.calls, 100'000u / 4);
-  int inside = 0; // of 129 edges, those within .1 of the peak, where 20 % of a uniform grid's would be
+  int inside = 0; // of 129 edges, the edges within .1 of the peak; a uniform grid would have 20 %
   for (const double e : learned.density->grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
   EXPECT_GE(inside, 60);
 }
 
-// Of a smooth wave there is nothing to learn that points do not do better.
+// For a smooth wave, a density is no better than the points themselves.
 TEST(Methods, LearnDensity_SmoothIntegrand_ReturnsNothing) {
   const std::function<double(std::span<const double>)> wave = [](std::span<const double> u) {
     return std::cos(0.97 + 2.76 * u[0] + 3.24 * u[1]);
@@ -169,9 +168,9 @@ TEST(Methods, LearnDensity_SmoothIntegrand_ReturnsNothing) {
   EXPECT_LE(run.calls, 24u * 256 + 5000);
 }
 
-// Baseline points of a tail as heavy as this hardly ever know their error, and look good where they met nothing large: by
-// the errors that both showed, learning gave up in 8 of 200 seeds, and auto was ten times as far off as with what the
-// others learned. In these it did.
+// For such a heavy tail, the error of the baseline points is rarely known, and looks small if they missed all large
+// values. Learning must not be given up for that reason. With these seeds, a comparison by the apparent errors would
+// give up.
 TEST(Methods, LearnDensity_UnknownErrors_ReturnsADensity) {
   const std::function<double(std::span<const double>)> corner = [](std::span<const double> u) {
     return std::pow(u[0] * u[1] * u[2] + 1e-300, -0.4);
@@ -189,8 +188,7 @@ TEST(Methods, LearnDensity_UnknownErrors_ReturnsADensity) {
   }
 }
 
-// What auto tried and gave up costs it less than the replicates that rqmc grows and drops; in 400 other seeds, too.
-// When auto grew them as far it ended with 13 where rqmc had 14, or misjudged how the error falls and kept 30.
+// The calls that auto spends on rejected methods must not reduce the number of sequences that rqmc keeps.
 TEST(Methods, Automatic_RqmcChosen_EndsWithAsManySequences) {
   const std::function<double(std::span<const double>)> wave = [](std::span<const double> u) {
     double x = 0.97;
@@ -209,7 +207,7 @@ TEST(Methods, Automatic_RqmcChosen_EndsWithAsManySequences) {
   }
 }
 
-// The bar of few points is not believed: they may not have met a thousandth of the volume that decides.
+// The error bar of few points is unreliable, because they may all miss an important thousandth of the volume.
 TEST(Methods, ReplicatesNeed128PointsEach) {
   for (const auto method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
     mc::IntegrateOptions o;

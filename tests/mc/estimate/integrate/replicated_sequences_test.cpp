@@ -28,11 +28,11 @@ TEST(ReplicatedSequences, ExtendingInStepsGivesTheSameSums) {
   EXPECT_EQ(run.calls, 5u * 1024 + 5u * 1024 + 3u * 1024);
 }
 
-// Some twice as long, the rest let go.
+// Doubles the length of some sequences and drops the others.
 TEST(ReplicatedSequences, KeepFirst_ErrorStaysCalibrated) {
   double squares = 0, errors = 0;
   constexpr int runs = 200;
-  const double truth = std::expm1(1.0) * 1.317902151454404; // (e - 1) and the sum of 1 / (k! (k + 1)^2)
+  const double truth = std::expm1(1.0) * 1.317902151454404; // (e - 1) times the sum of 1 / (k! (k + 1)^2)
   for (std::uint64_t seed = 0; seed < runs; ++seed) {
     mc::IntegrateOptions o;
     o.seed = seed;
@@ -46,10 +46,11 @@ TEST(ReplicatedSequences, KeepFirst_ErrorStaysCalibrated) {
     squares += mc::sqr(longer[0].value - truth) / runs;
     errors += mc::sqr(longer[0].error) / runs;
   }
-  EXPECT_NEAR(errors / squares, 1, 0.4); // 200 squares of a normal know their mean to 10 %, the errors theirs to 3 %
+  // the mean of 200 squares of a normal has an error of 10 %, the estimated errors have 3 %
+  EXPECT_NEAR(errors / squares, 1, 0.4);
 }
 
-// What the others saw of a heavy tail is not forgotten with them.
+// Dropped sequences must not remove their part of a heavy tail from the diagnostics.
 TEST(ReplicatedSequences, KeepFirst_KeepsTheTailOfDiscardedSequences) {
   const std::function<double(std::span<const double>)> heavy = [](std::span<const double> u) {
     return std::pow(1 - u[0], -0.9);
@@ -73,11 +74,10 @@ TEST(ReplicatedSequences, ConvergenceRateIsThatOfTheVariance) {
   s.means_history.push_back({{0, 1, 23}});
   EXPECT_EQ(detail::convergence_rate(s), 0);
   for (const double v : {1.0, 0.25, 0.0625, 0.0625 / 4}) s.means_history.push_back({{0, std::sqrt(v), 23}});
-  EXPECT_NEAR(detail::convergence_rate(s), std::log(4.0), 1e-12); // of the last three doublings
+  EXPECT_NEAR(detail::convergence_rate(s), std::log(4.0), 1e-12); // over the last three doublings
 }
 
-// Replicates of equal size whose means have so much less variance than independent points would give them: `gain` is
-// the logarithm of that.
+// Replicates of equal length. The log variance of their means is lower by `gain` than for independent points.
 ReplicatedSequences gaining(double deviation, double gain, std::uint32_t count = 12) {
   ReplicatedSequences s{.stream_id = 0, .count = count, .length = 256};
   s.sums.resize(count,
@@ -91,8 +91,8 @@ ReplicatedSequences gaining(double deviation, double gain, std::uint32_t count =
   return s;
 }
 
-// Where nothing is gained the points decide, whatever the replicates say, and however many these are; and what is
-// expected of the next doublings is part of a ninth of .4, as these gained nothing in eight.
+// Without a gain, the points decide, for any values and any number of the replicates. The expected gain of the next
+// doublings is a ninth of .4, because there was none in eight doublings.
 TEST(ReplicatedSequences, PredictedRatio_NoGain_FollowsThePoints) {
   const ReplicatedSequences wide = gaining(0.1, 0), narrow = gaining(0.05, 0), lucky = gaining(0.1, 0.5),
                             few = gaining(0.05, 0, 8);
@@ -103,7 +103,7 @@ TEST(ReplicatedSequences, PredictedRatio_NoGain_FollowsThePoints) {
   EXPECT_NEAR(detail::predicted_log_variance_ratio(wide, narrow, 5, 0.6), std::log(4) - 3 * 0.4 / 9, 1e-2);
 }
 
-// Where much is gained the replicates decide; and what gained fast will.
+// With a large gain, the replicates decide. The predicted gain follows the gain so far.
 TEST(ReplicatedSequences, PredictedRatio_LargeGain_FollowsTheReplicates) {
   const ReplicatedSequences slow = gaining(0.01, 4), fast = gaining(0.01, 8), half = gaining(0.01, 1.4);
   EXPECT_NEAR(detail::predicted_log_variance_ratio(slow, fast, 0, 0.6), 4, 0.2);
@@ -127,8 +127,8 @@ TEST(ReplicatedSequences, AddReplicatesEqualsAllAtOnce) {
   EXPECT_EQ(half.means_history[0][0].error, all.means[0].error);
 }
 
-// A uniform part that is an eighth as long as the other has most of the variance, whatever the unit, and less once it
-// is as dense.
+// A uniform part with an eighth of the points has most of the variance, in any unit. It has less with equally many
+// points.
 TEST(ReplicatedSequences, DenserUniformPartHasLessOfTheVariance) {
   for (const double unit : {1.0, 1e-300, 1e300}) {
     const std::function<double(std::span<const double>)> f = [&](std::span<const double> u) {
@@ -158,7 +158,7 @@ TEST(ReplicatedSequences, DenserUniformPartHasLessOfTheVariance) {
   }
 }
 
-// Ten times the error, but a hundredth of the relative one: the other has met next to nothing of the integrand.
+// Ten times the error but a hundredth of the relative error. The other mean missed almost the whole integrand.
 TEST(ReplicatedSequences, LogVarianceRatio_IntegrandMissed_IsNotBetter) {
   const mc::detail::Means nothing = {{1e-4, 1e-4, 23}}, much = {{1, 1e-3, 23}}, like_it = {{1.0001, 1e-4, 23}};
   EXPECT_LT(mc::detail::log_variance_ratio(much, nothing), -10);
@@ -168,7 +168,7 @@ TEST(ReplicatedSequences, LogVarianceRatio_IntegrandMissed_IsNotBetter) {
   EXPECT_FALSE(mc::detail::significantly_different(much, like_it));
 }
 
-// Half of the value with a fiftieth of its error: what it has not met it is off by.
+// Half of the value with a fiftieth of the error. The missing half counts as its error.
 TEST(ReplicatedSequences, LogVarianceRatio_HalfMissed_IsNotBetter) {
   const mc::detail::Means less = {{0.5, 1e-3, 23}}, much = {{1, 0.05, 23}};
   EXPECT_TRUE(mc::detail::significantly_different(much, less));

@@ -43,7 +43,7 @@ TEST(ScaledMoments, MergeAcrossScales) {
     EXPECT_EQ(zeros_first.mean(), zeros_last.mean());
     EXPECT_DOUBLE_EQ(zeros_first.std_error() / zeros_last.std_error(), 1);
   }
-  ScaledMoments both = moments(3, 0); // the small ones vanish beside the large
+  ScaledMoments both = moments(3, 0); // the small values vanish beside the large ones
   both.merge(moments(3, 900));
   EXPECT_DOUBLE_EQ(both.mean(), moments(3, 900).mean() / 2);
   EXPECT_TRUE(std::isfinite(both.std_error()));

@@ -12,16 +12,16 @@ namespace {
 using support::with;
 using Unit = std::span<const double>;
 
-// A peak along x, a slope along y.
+// A peak along x and a slope along y.
 double f(Unit u) { return std::exp(-mc::sqr((u[0] - 0.42) / 0.05) / 2) * (1 + u[1]); }
-double part(double lo, double hi) { // by what lies beyond, on the side that the bin is on: differences of small numbers
+double part(double lo, double hi) { // by the complements on the side of the bin, as differences of small numbers
   const double side = lo >= 0.4 ? 1 : -1;
   const auto beyond = [&](double x) { return std::erfc(side * (x - 0.42) / 0.05 / std::sqrt(2.0)); };
   return 1.5 * 0.05 * std::sqrt(mc::pi<double> / 2) * std::abs(beyond(hi) - beyond(lo));
 }
 
-// The whole has the bits that it has alone, the parts add up to it, and 93 to 97 % of their intervals hold what is
-// theirs: of 400 the binomial deviation is .011, and parts of a run are not independent.
+// The total must have the same bits as without bins, and the parts must add up to it. The coverage of their intervals
+// must be 93 to 97 %. The binomial deviation of 400 trials is .011, and parts of one run are dependent.
 TEST(Histogram, PartsOfAnIntegral) {
   for (const mc::Method method : support::all_methods) {
     int covered = 0, known = 0;

@@ -14,7 +14,7 @@ namespace {
 
 using Unit = std::span<const double>;
 
-// Functions whose distribution is known: g of a number that is uniform in [0,1), g increasing and random.
+// Functions with a known distribution: a random increasing function g of a number that is uniform in [0,1).
 struct Known {
   std::size_t dim;
   int kind;
@@ -33,7 +33,7 @@ struct Known {
     }
     if (kind == 0) return g(std::pow(largest, static_cast<double>(dim))); // max^d is uniform
     if (kind == 1) return g(turned - std::floor(turned));
-    double share = 0, term = 1; // of the product P(u1 ... ud <= p) = p (1 + l + l^2 / 2 + ...), l = -log p
+    double share = 0, term = 1; // for the product, P(u1 ... ud <= p) = p (1 + l + l^2 / 2 + ...) with l = -log p
     for (std::size_t d = 0; d < dim; ++d) {
       share += term;
       term *= -std::log(product) / static_cast<double>(d + 1);
@@ -42,8 +42,8 @@ struct Known {
   }
 };
 
-// 300 functions and three quantiles of each: the binomial deviation is .0073, and those of a function go together. The
-// promise is .95; alpha < 1 % for either bound.
+// 300 functions with three quantiles each. The binomial deviation is .0073, larger because quantiles of one function
+// are dependent. The required coverage is .95; alpha < 1 % for either bound.
 TEST(Quantiles, IntervalsCover) {
   constexpr std::array p = {0.05, 0.5, 0.9};
   for (const std::uint64_t calls : {500u, 6000u}) {

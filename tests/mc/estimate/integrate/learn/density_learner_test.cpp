@@ -10,7 +10,7 @@ namespace {
 
 namespace detail = mc::detail;
 
-// Two peaks on a diagonal: every axis alone sees two bumps, and a product of axes four peaks.
+// Two peaks on a diagonal: each axis shows two bumps, and a product of axes has four peaks.
 const std::function<double(std::span<const double>)> peaks = [](std::span<const double> u) {
   const auto at = [&](double c) { return std::exp(-(mc::sqr(u[0] - c) + mc::sqr(u[1] - c)) / (2 * 0.05 * 0.05)); };
   return at(0.25) + at(0.75);
@@ -34,9 +34,8 @@ TEST(DensityLearner, FollowsNonSeparableIntegrand) {
   EXPECT_GT(density(0.75, 0.75), 4 * density(0.75, 0.25));
 }
 
-// A product whose few largest values hold most of the mean square: the grid follows it only as far as it has been seen,
-// alike on both sides of the middle, about which it is symmetric. Where single points said more than their neighbours
-// the density was up to 6.5 times as large on one side as on the other.
+// The few largest values of this product dominate the mean square. The grid must stay as symmetric about the middle as
+// the product, so it must not follow single points.
 TEST(DensityLearner, DoesNotFollowSinglePoints) {
   constexpr std::size_t dim = 20;
   const std::function<double(std::span<const double>)> product = [](std::span<const double> u) {
