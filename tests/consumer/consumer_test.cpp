@@ -1,8 +1,8 @@
-// A user's own test suite against the installed package, and the examples of libmc/README.md in the same program.
+// Test suite of a user against the installed package, with the examples of libmc/README.md in the same program.
 
 #include <readme_examples.h>
 
-#include "my_test.cpp" // the example of the README: one translation unit holds all of them
+#include "my_test.cpp" // the example of the README, in one translation unit with the others
 
 #include <mc/gtest/matchers.h>
 #include <mc/warp/hemisphere.h>
@@ -13,7 +13,7 @@
 
 namespace {
 
-// A sampler of one's own, checked against its claimed density.
+// A user's sampling function, checked against its claimed density.
 mc::Vec3<double> my_sample(mc::Pcg& random) { return mc::CosineHemisphere<double>().sample(random.point<double, 2>()); }
 double my_pdf(const mc::Vec3<double>& w) { return std::max(w.z(), 0.0) / mc::pi<double>; }
 double wrong_pdf(const mc::Vec3<double>& w) { return w.z() >= 0 ? 1 / (2 * mc::pi<double>) : 0; }

@@ -1,4 +1,5 @@
-// Compiled by pkg-config's flags alone, and the smallest program that a difference in alignment would break.
+// Built with the flags of pkg-config only. A minimal program that fails if the alignment of types differs from the
+// library.
 #include <mc/estimate/control_variate.h>
 #include <mc/random/pcg.h>
 

@@ -1,4 +1,4 @@
-// A program of librender's user: it links what librender itself uses.
+// A program that uses librender: it links the dependencies of librender.
 #include <render/io/image/image_io.h>
 
 int main(int, char** arguments) {

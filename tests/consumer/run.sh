@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Installs the build tree into a scratch folder and builds this project against it in Debug and Release, with plain flags
-# and with -march=native, all against the one installed library. Runs its tests and the examples of libmc/README.md, which
-# must print what stands there.
+# Installs the build tree into a scratch folder. Builds this project against the one installed library in Debug and
+# Release, with plain flags and with -march=native. Runs its tests and the examples of libmc/README.md, and compares the
+# output of the examples with the README.
 # Usage: run.sh BUILD_DIR CMAKE COMPILER [one | other]
-#   one    only in Release, for libraries built with a sanitizer
-#   other  by clang where COMPILER is g++, else by g++; ends with 77 where that is not installed
+#   one    Release only, for libraries built with a sanitizer.
+#   other  uses clang if COMPILER is g++, else g++; exits with 77 if it is not installed.
 set -eu
 build=$1 cmake=$2 compiler=$3 what=${4:-all}
 configurations=(Debug Release)
@@ -32,7 +32,7 @@ for configuration in "${configurations[@]}"; do
 done
 [ "$what" != other ] || exit 0 # the rest once
 
-# Without CMake. The flags of mc-render hold those of mc.
+# Without CMake. The flags of mc-render include the flags of mc.
 export PKG_CONFIG_PATH=$scratch/prefix/lib/pkgconfig
 "$compiler" -std=c++20 "$here/control_variates.cpp" -o "$scratch/with_pkg_config" $(pkg-config --cflags --libs mc-render)
 LD_LIBRARY_PATH=$scratch/prefix/lib "$scratch/with_pkg_config"

@@ -1,5 +1,5 @@
-// A libFuzzer target for the reader of one format, FUZZ_FORMAT: whatever the bytes are, they are read, or refused by an
-// mc::Error in one line. Anything else is a finding: a crash, another exception, memory that the bytes do not justify.
+// A libFuzzer target for the reader of one format, FUZZ_FORMAT. Any input is read, or rejected with a one-line
+// mc::Error. Anything else is a finding: a crash, another exception, or memory use out of proportion to the input.
 
 #include "fuzz/readers.h"
 
@@ -27,7 +27,7 @@ void read_by(std::string_view format, const std::string& path) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const int file = memfd_create("input", 0); // readers take paths; this one is in memory
+  const int file = memfd_create("input", 0); // readers take paths; this file is in memory
   if (file < 0 || write(file, data, size) != static_cast<ssize_t>(size)) std::abort();
   read_by(FUZZ_FORMAT, "/proc/self/fd/" + std::to_string(file));
   close(file);

@@ -1,5 +1,5 @@
 #pragma once
-// The readers of files that come from anywhere.
+// The readers of files from untrusted sources.
 
 #include <render/io/image/formats.h>
 #include <render/io/mesh/mesh.h>
@@ -12,7 +12,7 @@
 namespace fuzz {
 
 struct Reader {
-  std::string_view format; ///< a folder of the corpus, and the ending of its files
+  std::string_view format; ///< Folder of the corpus and extension of its files.
   void (*read)(const std::string& path);
 };
 

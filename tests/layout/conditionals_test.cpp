@@ -1,5 +1,5 @@
-// What is chosen among three or more is read line by line, as if and return, a switch or a table: in the product code
-// no conditional a ? b : c stands in another.
+// A choice among three or more values is written as if and return, a switch or a table. In the product code no
+// conditional a ? b : c contains another one.
 
 #include "layout/source_tree.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace layout;
 
-// Where the comment, string or character that begins at i ends; i where none does.
+// End of the comment, string or character literal that begins at i; i if none begins there.
 std::size_t end_of_quoted(const std::string& text, std::size_t i) {
   const auto behind = [&](const std::string& end, std::size_t from) {
     const std::size_t at = text.find(end, from);
@@ -30,7 +30,7 @@ std::size_t end_of_quoted(const std::string& text, std::size_t i) {
   return std::min(end + 1, text.size());
 }
 
-// The text without what is quoted, line for line.
+// The text without comments and literals, with the same lines.
 std::string code_of(const std::string& text) {
   std::string code;
   for (std::size_t i = 0; i < text.size();) {
@@ -45,12 +45,12 @@ std::string code_of(const std::string& text) {
   return code;
 }
 
-// The lines, counted from 1, of those conditionals that stand in an arm of another. What stands in braces, as the body
-// of a lambda does, is read for itself.
+// Lines, counted from 1, of conditionals in an arm of another conditional. Text in braces, such as the body of a
+// lambda, is analysed separately.
 std::vector<int> nested_conditionals(const std::string& text) {
   struct Bracket {
     char kind;
-    bool conditional = false; // one was met in it, behind its last comma or semicolon
+    bool conditional = false; // contains a conditional since its last comma or semicolon
   };
   std::vector<Bracket> open = {{'{'}};
   std::vector<int> found;

@@ -7,11 +7,11 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 flags=(-std=c++20)
 for folder in "$@"; do
-  # -isystem of the default folder would hide the C headers from the C++ ones.
+  # With -isystem of the default folder, C++ headers would not find the C headers.
   for one in ${folder//;/ }; do [ "$one" = /usr/include ] || flags+=(-isystem "$one"); done
 done
 
-# Most of the time is Eigen's: headers that include it, perhaps by way of others of ours, find it precompiled.
+# Eigen takes most of the time, so it is precompiled for the headers that include it, directly or indirectly.
 echo '#include <Eigen/Core>' >"$scratch/eigen.h"
 "$compiler" "${flags[@]}" -x c++-header "$scratch/eigen.h" -o "$scratch/eigen.h.gch"
 headers() { for base in libmc librender; do (cd "$source/$base" && find . -name '*.h' -printf '%P\n'); done | sort; }

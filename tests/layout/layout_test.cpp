@@ -1,4 +1,4 @@
-// The layout of the house: who may include whom, every header has its test, the READMEs show what is compiled.
+// Layout rules: permitted includes, one test per header, and READMEs that quote compiled code.
 
 #include "layout/source_tree.h"
 
@@ -14,7 +14,7 @@ using namespace layout;
 
 using Modules = std::map<std::string, std::set<std::string>>;
 
-// Every room with the rooms it may include, and transitively theirs.
+// The modules that each module may include, directly or transitively.
 Modules closure(Modules modules) {
   for (bool grown = true; grown;) {
     grown = false;
@@ -52,7 +52,8 @@ const Modules allowed_includes = closure({
     {"render", {"render/integrator", "render/scene", "render/film", "mc/sampler", "mc/estimate"}},
 });
 
-// "libmc/mc/warp/disk.h" or "mc/warp/disk.h" -> "mc/warp"; a file directly under render/ is the room "render".
+// Module of a path: "libmc/mc/warp/disk.h" and "mc/warp/disk.h" give "mc/warp". Files directly in render/ belong to the
+// module "render".
 std::string module_of(std::string path) {
   for (const std::string prefix : {"libmc/", "librender/"})
     if (path.starts_with(prefix)) path.erase(0, prefix.size());
@@ -87,7 +88,8 @@ TEST(Layout, LibrariesNeverIncludeTestsBenchOrTools) {
           << i.file << ":" << i.line << ": <" << i.header << "> is not installed with the libraries";
 }
 
-// A library that is costly to compile or easy to swap stands behind one .cpp of each of our libraries that needs it.
+// A third-party library that is slow to compile or easy to replace is included by one .cpp file of each of our
+// libraries that needs it.
 TEST(Layout, EachThirdPartyLibraryIsIncludedByOneFile) {
   const std::map<std::string, std::string> doors = {
       {"CLI/", "CLI11"},       {"pugixml.hpp", "pugixml"},       {"OpenEXR/", "OpenEXR"},
@@ -127,8 +129,8 @@ TEST(Layout, TopLevelHasOnlyKnownEntries) {
   }
 }
 
-// A consumer compiles with flags of its own: no installed header branches on the instruction set, nor includes one that
-// does (and that would not be found, since it is not installed).
+// A consumer compiles with its own flags. No installed header branches on the instruction set, or includes a header
+// that does. Such headers are not installed either.
 TEST(Layout, InstalledHeadersDoNotDependOnInstructionSet) {
   static const std::regex branch(R"(__(AVX|SSE|GFNI|BMI|FMA|ARM)|immintrin|_mm\d*_)"),
       excluded(R"re(PATTERN "([\w.]+)" EXCLUDE)re");
@@ -150,7 +152,8 @@ TEST(Layout, InstalledHeadersDoNotDependOnInstructionSet) {
   }
 }
 
-// The README's test and the plugin are those that the consumer compiles and runs against the installed package.
+// The test and the plugin in the READMEs are the files that the consumer compiles and runs against the installed
+// package.
 TEST(Layout, ReadmeExamplesAreCompiled) {
   EXPECT_NE(text_of("README.md").find("```cpp\n" + text_of("tests/consumer/my_test.cpp") + "```"), std::string::npos)
       << "README.md: the test is not tests/consumer/my_test.cpp";
@@ -159,7 +162,7 @@ TEST(Layout, ReadmeExamplesAreCompiled) {
       << "tools/plugin/README.md: the plugin is not tests/consumer/mine.c";
 }
 
-// A link to a file of the project leads to one.
+// Links to files of the project lead to existing files.
 TEST(Layout, ReadmeLinksExist) {
   static const std::regex link(R"(\]\(([\w./-]+)\))");
   std::vector<fs::path> files = {"README.md",
@@ -183,7 +186,7 @@ TEST(Layout, ReadmeLinksExist) {
   }
 }
 
-// A new user reads it in ten minutes, on GitHub and in a terminal; details stand in docs/.
+// The README is for the first ten minutes of a new user, on GitHub and in a terminal. Details belong to docs/.
 TEST(Layout, ReadmeHasAtMost900WordsInShortLines) {
   std::stringstream text(text_of("README.md"));
   const auto words = std::distance(std::istream_iterator<std::string>(text), std::istream_iterator<std::string>());

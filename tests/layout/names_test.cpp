@@ -1,4 +1,4 @@
-// The vocabulary of the sources: standard terms of the field, without the names that they replaced.
+// Vocabulary of the sources: standard terms of the field, not the retired names.
 
 #include "layout/source_tree.h"
 
@@ -10,7 +10,7 @@ namespace {
 
 using namespace layout;
 
-// The old name of each line of retired_names.txt, with the name to use instead.
+// Maps each retired name in retired_names.txt to its replacement.
 std::map<std::string, std::string> retired_names() {
   std::map<std::string, std::string> names;
   for (const std::string& line : lines_of("tests/layout/retired_names.txt")) {
@@ -20,7 +20,7 @@ std::map<std::string, std::string> retired_names() {
   return names;
 }
 
-// The identifiers of a line of C++, without comments and string literals.
+// The identifiers in a line of C++, without comments and string literals.
 std::vector<std::string> identifiers(const std::string& line) {
   static const std::regex text(R"re("(?:[^"\\]|\\.)*"|//.*)re"), word(R"([A-Za-z_]\w*)");
   const std::string code = std::regex_replace(line, text, " ");
@@ -32,7 +32,7 @@ TEST(LayoutNames, IdentifiersAreFoundOutsideOfTextOnly) {
             (std::vector<std::string>{"a", "b_2", "Walker"}));
 }
 
-// pbrt, Veach, Owen and Boost.Math have a word for nearly all that this project names: readers know it already.
+// pbrt, Veach, Owen and Boost.Math define a term for nearly every concept of this project.
 TEST(LayoutNames, RetiredNamesAreNotUsed) {
   const std::map<std::string, std::string> retired = retired_names();
   ASSERT_GT(retired.size(), 200u);

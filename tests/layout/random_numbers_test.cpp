@@ -1,6 +1,6 @@
-// In librender a random number goes into a warp, table, mixture or estimator of libmc and nowhere else: no source does
-// arithmetic on one. What counts as a random number is read from the code: parameters named u or uc, what a stream
-// gives, what a choice leaves of its number (u_remapped), and variables made of these.
+// In librender, random numbers are only passed to warps, tables, mixtures and estimators of libmc; no source does
+// arithmetic on them. The test treats these as random numbers: parameters named u or uc, values from a stream,
+// u_remapped, and variables made from them.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ std::string without_comments(std::string text) {
   return std::regex_replace(text, std::regex(R"("[^"\n]*")"), "\"\"");
 }
 
-// Variables that hold random numbers: `Vec2 v(part.u_remapped, u[1])`, but not what a sample made of them.
+// Variables that contain random numbers, such as `Vec2 v(part.u_remapped, u[1])`, but not results of sampling.
 std::set<std::string> random_names(const std::string& code) {
   std::set<std::string> names = {"u", "uc"};
   static const std::regex declaration(R"((?:Float|Vec2|Vec3|auto|double|mc::Vec2<\w+>)&? (\w+)\s*[=({]([^;]*);)");
@@ -38,13 +38,13 @@ std::set<std::string> random_names(const std::string& code) {
   return names;
 }
 
-// The lines where a random number meets an operator or a function that is no sampler.
+// Lines in which a random number is an operand of an operator or an argument of a function that is no warp.
 std::vector<std::string> misuses(const std::string& text) {
   std::string code = without_comments(text);
   std::string name = R"(\w+(?:\.|->)next2?\(\)|\w+(?:\.|->)u_remapped)";
   for (const std::string& one : random_names(code)) name += "|" + one;
   const std::string number = R"((?:\b(?:)" + name + R"()(?![\w(])(?:\[\w+\]|\.[xyz]\(\))?))";
-  // A cast of a number is one, too.
+  // A cast of a random number is a random number.
   code = std::regex_replace(code, std::regex(R"(\b(?:double|Float|float)\(\s*()" + number + R"()\s*\))"), "$1");
   const std::regex before(R"((?:[-+*/%]| [<>]|==|!=)\s*)" + number),
       after(number + R"((?:\s*(?:[-+*/%]|==|!=)| [<>]))"),
@@ -71,7 +71,7 @@ TEST(RandomNumbers, AreOnlyUsedThroughLibmc) {
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     const std::string extension = entry.path().extension().string();
-    const bool reads_files = fs::relative(entry.path(), root).begin()->string() == "io"; // and sees no random number
+    const bool reads_files = fs::relative(entry.path(), root).begin()->string() == "io"; // io uses no random numbers
     if ((extension != ".h" && extension != ".cpp") || reads_files) continue;
     ++files;
     for (const std::string& line : misuses(text_of(entry.path())))
@@ -80,7 +80,7 @@ TEST(RandomNumbers, AreOnlyUsedThroughLibmc) {
   EXPECT_GE(files, 30);
 }
 
-// Numbers come from the streams of libmc.
+// Random numbers come from the streams of libmc.
 TEST(RandomNumbers, AreNotGeneratedInLibrender) {
   const fs::path root = fs::path(MC_SOURCE_DIR) / "librender/render";
   for (const auto& entry : fs::recursive_directory_iterator(root)) {

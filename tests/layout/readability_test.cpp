@@ -1,4 +1,4 @@
-// What a reader meets: short files and functions, small folders, and a drawing of who includes whom without a circle.
+// Readability rules: short files and functions, small folders, and no include cycles between folders.
 
 #include "layout/source_tree.h"
 
@@ -14,16 +14,16 @@ using namespace layout;
 const std::vector<const char*> everything = {"libmc", "librender", "tools", "tests", "bench"};
 
 struct Function {
-  std::size_t line, length; ///< of its first line, counted from 1
+  std::size_t line, length; ///< Number of the first line, from 1, and length in lines.
 };
 
 std::size_t indent(const std::string& line) { return line.find_first_not_of(' '); }
 
-// ": a(b)" after a constructor, and not "::a b()".
+// True for ": a(b)" after a constructor, but not for "::a b()".
 bool is_initializer(const std::string& line) { return line.compare(indent(line), 2, ": ") == 0; }
 
-// Functions of more than `longest` lines, in the format that clang-format gives: a body ends at the first line that
-// starts with a brace and is indented as the line with which the function starts, or where a lambda's braces close.
+// Functions of more than `longest` lines in the style of clang-format. A body ends at the first line that starts with a
+// brace at the indentation of the function, or where the braces of a lambda close.
 std::vector<Function> long_functions(const std::vector<std::string>& lines, std::size_t longest) {
   static const std::regex other(R"(^\s*(template.*>\s*)?(namespace|struct|class|enum|union|extern|typedef|concept)\b)");
   const auto unclosed = [](const std::string& line) {
@@ -41,7 +41,7 @@ std::vector<Function> long_functions(const std::vector<std::string>& lines, std:
                          lines[start - 1].ends_with('=') || lines[start - 1].ends_with("&&")))
       open += unclosed(lines[--start]);
     std::size_t end = i + 1;
-    if (open > 0) { // a lambda among arguments, which may start anywhere on its line
+    if (open > 0) { // a lambda as an argument, which may start anywhere in its line
       start = i;
       for (auto depth = 1 + braces(lines[end]); end + 1 < lines.size() && depth > 0; depth += braces(lines[end])) ++end;
     } else {
@@ -109,7 +109,7 @@ TEST(Readability, LinesHaveAtMost120Columns) {
   }
 }
 
-// Looks at assignments of simple values only: commas also separate arguments and captures.
+// Considers assignments of simple values only: commas also separate arguments and captures.
 TEST(Readability, NoCommaOperatorBetweenAssignments) {
   static const std::regex two(R"(^\s*\w[\w.\[\]>-]* [-+*/|&]?= [^;"(){}[]*, \w[\w.\[\]>-]* [-+*/|&]?= .*;$)");
   EXPECT_TRUE(std::regex_match("  a.b = 1, c[i] += 2;", two));
@@ -122,9 +122,10 @@ TEST(Readability, NoCommaOperatorBetweenAssignments) {
   }
 }
 
-using Graph = std::map<std::string, std::map<std::string, std::string>>; ///< from, to, and the place of an include
+/// Maps from and to folders to the place of an include.
+using Graph = std::map<std::string, std::map<std::string, std::string>>;
 
-// A circle through `node`, or "".
+// A cycle through `node`, or "".
 std::string find_cycle(const Graph& graph, const std::string& node, std::vector<std::string>& path,
                        std::set<std::string>& done) {
   if (const auto it = std::find(path.begin(), path.end(), node); it != path.end()) {
@@ -142,7 +143,7 @@ std::string find_cycle(const Graph& graph, const std::string& node, std::vector<
   return "";
 }
 
-// Who includes whom: a whole folder stands above another or below it.
+// Between two folders, all includes point in one direction.
 TEST(Readability, FoldersHaveNoIncludeCycles) {
   const std::vector<const char*> bases = {"libmc", "librender", "tools"};
   Graph graph;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Takes the examples out of a README: every ```cpp block becomes a function of one header, every ```text block after it
-# what readme::print_examples() prints.
+# Extracts the examples of a README. Every ```cpp block becomes a function of one header. Every ```text block after it
+# is the expected output of readme::print_examples().
 # Usage: readme_examples.sh README.md HEADER.h EXPECTED.txt
 set -eu
 readme=$1 header=$2 expected=$3

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Two builds of carlo must give the same bits: pictures, integrals and every figure of a validation but the times.
+# Checks that two builds of carlo give the same bits: images, integrals and all figures of a validation except times.
 # Usage: same_bits.sh CARLO OTHER_CARLO
 set -eu
 scenes=$(cd "$(dirname "$0")/../../librender/scenes" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 failed=0
-# same WHAT: the files one and two, without what differs from run to run.
+# same NAME: compares the files `one` and `two`, which contain no parts that differ between runs.
 same() {
   if cmp -s "$scratch/one" "$scratch/two"; then echo "same bits: $1"; else
     echo "DIFFERENT: $1"

@@ -1,5 +1,5 @@
 #pragma once
-// The sources of the project, as the tests of its layout read them.
+// Access to the sources of the project for the layout tests.
 
 #include <algorithm>
 #include <filesystem>
@@ -66,7 +66,7 @@ inline std::vector<Include> includes(const fs::path& folder) {
   return found;
 }
 
-// Columns of a line of UTF-8: bytes that continue a character take none.
+// Number of columns of a UTF-8 line: continuation bytes have no width.
 inline std::size_t columns(const std::string& line) {
   return static_cast<std::size_t>(
       std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));

@@ -1,6 +1,6 @@
-// Known-wrong samplers: each must be rejected at alpha = 1 % by the law that its fault breaks, and the right one beside
-// it not. They stand in tools/known_bugs/, where carlo tells their story. The seeds are fixed; a slip runs with two,
-// with one where it takes many samples.
+// Known bugs of warps. The law that a bug violates must reject it at alpha = 1 %, and the correct version must pass.
+// tools/known_bugs/ describes the bugs. Seeds are fixed; each bug runs with two seeds, or with one if it needs many
+// samples.
 
 #include <known_bugs/known_bugs.h>
 
@@ -12,7 +12,7 @@
 
 namespace carlo {
 
-// GoogleTest prints the bytes of a parameter otherwise.
+// Without this function GoogleTest prints the bytes of a parameter.
 void PrintTo(const KnownBug& s, std::ostream* out) { *out << s.title() << ", " << s.source << ": " << s.description; }
 
 } // namespace carlo
@@ -22,7 +22,8 @@ namespace {
 using carlo::KnownBug;
 using mc::Fault;
 
-// Tests of counts see one fault at several scales: whether it is called shape, local or atom is a matter of degree.
+// Tests of counts detect one fault at several scales. Its classification as shape, rotation, local or atom is a matter
+// of degree.
 bool same_kind(Fault a, Fault b) {
   const auto counted = [](Fault f) {
     return f == Fault::shape || f == Fault::rotation || f == Fault::local || f == Fault::atom;
@@ -47,7 +48,7 @@ TEST_P(MutantTest, IsRejected) {
   }
 }
 
-// alpha = 0.01 % per slip: all of them together are rejected by chance once in 150 seeds.
+// alpha = 0.01 % per bug: one of 150 seeds rejects some correct version by chance.
 TEST_P(MutantTest, CorrectVersionPasses) {
   const std::uint64_t samples = std::min<std::uint64_t>(std::max<std::uint64_t>(GetParam().samples, 20'000), 60'000);
   const mc::Report report = GetParam().right.check({.samples = samples, .seed = 1, .alpha = 1e-4});
@@ -62,7 +63,7 @@ TEST(Mutants, EveryIdHasBugOrReason) {
     EXPECT_TRUE(ids.insert(s.id).second) << s.id;
     EXPECT_FALSE(s.source.empty() || s.description.empty() || s.name.empty()) << s.id;
   }
-  // The comments that open known_bugs/books.cpp and known_bugs/courses.cpp say why these have no sampler.
+  // The comments at the top of known_bugs/books.cpp and known_bugs/courses.cpp explain why these have no warp.
   for (const char* none : {"P10", "P16", "P17", "P23", "P28", "P31", "P32"})
     EXPECT_TRUE(ids.insert(none).second) << none;
   for (int i = 1; i <= 36; ++i) EXPECT_TRUE(ids.contains("P" + std::to_string(i))) << i;

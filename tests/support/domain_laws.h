@@ -10,12 +10,12 @@
 
 namespace support {
 
-/// |dx/dv| at v by central differences over 50 digits: the root of the Gram determinant, so that surfaces in space
-/// count too.
+/// |dx/dv| at v by central differences with 50 digits. It is the root of the Gram determinant, which covers surfaces in
+/// space.
 template <mc::Domain D> mc::Oracle numeric_jacobian(const D& exact, const typename D::UnitPoint& v) {
   using mc::Oracle;
   const Oracle h(1e-20);
-  std::array<std::array<Oracle, 3>, 3> slope{}; // of x along each axis of the chart
+  std::array<std::array<Oracle, 3>, 3> slope{}; // derivatives of x along each axis of the chart
   for (int i = 0; i < D::dim; ++i) {
     auto ahead = mc::detail::to_array<Oracle>(v), behind = ahead;
     const auto axis = static_cast<std::size_t>(i);
@@ -39,7 +39,7 @@ template <mc::Domain D> mc::Oracle numeric_jacobian(const D& exact, const typena
   }
 }
 
-/// The Jacobian over 50 digits, to 1e-15 of the numeric one.
+/// The Jacobian with 50 digits agrees with the numerical one to 1e-15.
 template <mc::Domain D> void expect_jacobian(const D& domain) {
   mc::Pcg random(6);
   const auto exact = domain.template cast<mc::Oracle>();
@@ -50,7 +50,8 @@ template <mc::Domain D> void expect_jacobian(const D& domain) {
   }
 }
 
-/// The Jacobian, points in the domain, and round trips within `eps` machine epsilons of the unit cube.
+/// Checks the Jacobian, that points lie in the domain, and that round trips are accurate to `eps` machine epsilons of
+/// the unit cube.
 template <mc::Domain D> void expect_domain_laws(const D& domain, double eps) {
   using S = typename D::Scalar;
   const double bound = eps * static_cast<double>(std::numeric_limits<S>::epsilon());
@@ -62,7 +63,7 @@ template <mc::Domain D> void expect_domain_laws(const D& domain, double eps) {
     const typename D::UnitPoint back = domain.to_unit(x);
     for (int k = 0; k < D::dim; ++k) {
       const double off = std::abs(mc::detail::component(back, k) - mc::detail::component(v, k));
-      ASSERT_LE(std::min(off, std::abs(1 - off)), bound) << "at v = " << v; // an azimuth may wrap
+      ASSERT_LE(std::min(off, std::abs(1 - off)), bound) << "at v = " << v; // an azimuth may wrap around
     }
   }
   expect_jacobian(domain);

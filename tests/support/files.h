@@ -15,7 +15,7 @@
 
 namespace support {
 
-/// A test with a folder of its own that is removed at the end.
+/// A test with its own folder, which is removed at the end.
 struct ScratchTest : testing::Test {
   std::filesystem::path folder;
 
@@ -30,13 +30,13 @@ struct ScratchTest : testing::Test {
 
   std::string path(const std::string& name) const { return (folder / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
-    std::filesystem::remove(folder / name); // file systems write through to the disk what truncates a file
+    std::filesystem::remove(folder / name); // some file systems flush to disk when a file is truncated
     std::ofstream(folder / name, std::ios::binary) << text;
     return path(name);
   }
 };
 
-/// What f complains about; "" when it does not.
+/// Error message of f; "" if it does not throw.
 inline std::string error_of(const std::function<void()>& f) {
   try {
     f();
@@ -46,8 +46,7 @@ inline std::string error_of(const std::function<void()>& f) {
   return "";
 }
 
-/// Comparison data that stand beside the project and not in it. Tests that only compare against them skip where they
-/// are absent.
+/// Comparison data outside of the repository. Tests that only compare with them are skipped if they are absent.
 inline bool has_shared_file(const std::string& file) {
   return std::filesystem::exists(std::string(MC_SHARED_DIR) + "/" + file);
 }

@@ -1,1 +1,1 @@
-// Carries the precompiled header that every test executable reuses.
+// Contains the precompiled header of all test executables.

@@ -1,5 +1,5 @@
 #pragma once
-// What pictures of many seeds say of each other.
+// Statistics of images over many seeds.
 
 #include <render/render.h>
 
@@ -10,7 +10,7 @@
 
 namespace support {
 
-/// Pixels of a that are not, bit for bit, those of b from (dx, dy) on.
+/// Number of pixels of a that differ in any bit from the pixels of b shifted by (dx, dy).
 inline int count_different_pixels(const render::Image& a, const render::Image& b, int dx = 0, int dy = 0) {
   int different = 0;
   for (int y = 0; y < a.height; ++y)
@@ -20,12 +20,12 @@ inline int count_different_pixels(const render::Image& a, const render::Image& b
   return different;
 }
 
-/// Of 150 seeds from `first` on: of the sum of each picture and of each pixel, in green, and what the pictures say of
-/// it.
+/// Statistics over 150 seeds from `first` on: the sum of each image and each pixel, in green, and their stated
+/// variances.
 struct SeedEnsemble {
   mc::Moments sums;
   std::vector<mc::Moments> pixels;
-  double variance = 0; ///< stated, of the sum
+  double variance = 0; ///< stated variance of the sum
   std::vector<double> variances;
 
   SeedEnsemble(const render::Scene& scene, render::RenderOptions options, std::uint64_t first)
@@ -45,11 +45,11 @@ struct SeedEnsemble {
   }
 };
 
-/// Pictures whose pixels share samples have the expectation of pictures whose pixels do not, pixel by pixel, and as
-/// much noise as they say. Alpha is 0.1 % for the sum and for the pixels. The mean of the stated variances is that of
-/// the pixels within 12 % (four of its standard errors); that of the sum is not above what is stated but by chance,
-/// .1 %.
-///   returns : the variance of the pixels over that of those that share nothing
+/// Images with pixels that share samples have the same expectation as images without sharing, at every pixel, and their
+/// stated noise is correct. Alpha is 0.1 % for the sum and for the pixels. The mean of the stated variances agrees with
+/// the variance of the pixels within 12 % (four standard errors). The variance of the sum exceeds the stated variance
+/// only by chance (.1 %).
+///   returns : variance of the pixels divided by the variance without sharing.
 inline double expect_same_statistics(const SeedEnsemble& shared, const SeedEnsemble& own) {
   const double error = std::hypot(shared.sums.std_error(), own.sums.std_error());
   EXPECT_LE(std::abs(shared.sums.mean() - own.sums.mean()), 3.29 * error);
@@ -59,7 +59,7 @@ inline double expect_same_statistics(const SeedEnsemble& shared, const SeedEnsem
     if (b.variance() > 0) {
       squares += mc::sqr(a.mean() - b.mean()) / (mc::sqr(a.std_error()) + mc::sqr(b.std_error()));
       ++compared;
-    } else { // thousands of samples of one colour; a pixel that shares may have met another beside it
+    } else { // thousands of samples of one colour; a shared path may come from a neighbour with another colour
       EXPECT_NEAR(a.mean() / b.mean(), 1, 0.002) << i;
     }
     stated += shared.variances[i];
@@ -69,7 +69,7 @@ inline double expect_same_statistics(const SeedEnsemble& shared, const SeedEnsem
   EXPECT_GE(compared, 70);
   EXPECT_GE(mc::chi_square_tail(squares, compared), 0.001);
   EXPECT_NEAR(stated / is, 1, 0.12);
-  EXPECT_LE(shared.sums.variance() / shared.variance, 1.36); // chi-square of 149
+  EXPECT_LE(shared.sums.variance() / shared.variance, 1.36); // chi-square with 149 degrees of freedom
   return is / was;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rooms made by machine, and whether they look alike in two ways.
+// Random rooms, and the comparison of two methods to render them.
 
 #include <render/render.h>
 #include <render/scene/builder.h>
@@ -16,10 +16,11 @@ namespace support {
 
 using namespace render;
 
-/// What lights a room: lamps, or points and parallel light, or the tiny and the far spheres that these stand for.
+/// Lights of a room: lamps, delta lights (points and parallel light), or tiny and distant spheres equivalent to the
+/// delta lights.
 enum class RandomLights { lamps, deltas, spheres };
 
-/// Draws what stands in a room.
+/// Generates a random room.
 class RandomScene {
  public:
   explicit RandomScene(std::uint64_t seed, RandomLights lights = RandomLights::lamps)
@@ -28,7 +29,7 @@ class RandomScene {
   Scene build() {
     SceneBuilder builder;
     const BsdfId grey = builder.add(Lambert(Spectrum(Float(0.7), Float(0.5), Float(0.6))));
-    for (int wall = 0; wall < 5; ++wall) // the room is open to the camera
+    for (int wall = 0; wall < 5; ++wall) // the room is open towards the camera
       if (wall == 0 || chance(0.7)) builder.add(TriangleMesh::rectangle(side(wall)), {grey});
     const int things = 1 + static_cast<int>(3 * number());
     for (int i = 0; i < things; ++i) add_object(builder);
@@ -52,7 +53,7 @@ class RandomScene {
   bool chance(double p) { return number() < p; }
   Vec3d place(double r) { return r * (2 * random_.point<double, 3>() - Vec3d::Ones()); }
 
-  // Of the cube [-2, 2]^3, seen from inside.
+  // Transform of a side of the cube [-2, 2]^3, facing inward.
   static Transform side(int wall) {
     const Transform turns[] = {Transform::rotate(Vec3d::UnitX(), -90), Transform::rotate(Vec3d::UnitX(), 90),
                                Transform::rotate(Vec3d::UnitY(), 90), Transform::rotate(Vec3d::UnitY(), -90),
@@ -60,7 +61,7 @@ class RandomScene {
     return turns[wall] * Transform::translate({0, 0, -2}) * Transform::scale({2, 2, 1});
   }
 
-  // Dim, with a bright texel of an eighth by a quarter of it.
+  // A dim sky with one bright texel of an eighth by a quarter of it.
   Environment sky() {
     std::vector<Spectrum> texels(32, Spectrum::Constant(Float(0.1)));
     texels[std::size_t(32 * number())] = Spectrum(2, Float(1.5), 1);
@@ -123,7 +124,7 @@ class RandomScene {
     return {corners, faces, normals};
   }
 
-  // Large ones, so that paths from the camera alone know their error.
+  // Large lamps, so that paths from the camera alone estimate their error reliably.
   void add_lamp(SceneBuilder& builder) {
     const Emission light{Spectrum(1, 2, 3), chance(0.3)};
     const BsdfId grey = builder.add(Lambert(Spectrum::Constant(Float(0.3))));
@@ -138,7 +139,7 @@ class RandomScene {
           {grey, light});
   }
 
-  // Of the same light whichever it is: of radiance L a sphere of radius r gives pi r^2 L / d^2 at the distance d.
+  // A delta light or its equivalent sphere: a sphere of radius r and radiance L gives pi r^2 L / d^2 at distance d.
   void add_small_light(SceneBuilder& builder) {
     const Spectrum light(3, 2, 4);
     const bool far = chance(0.4);
@@ -157,8 +158,8 @@ class RandomScene {
   RandomLights lights_;
 };
 
-/// Means of pictures, of the pixels in units of their reference and a dark of a tenth of its mean, so that no lamp in
-/// view outweighs the rest; by `count` independent pictures.
+/// Means of `count` independent images. Pixels are divided by `unit`, which contains their reference plus a tenth of
+/// its mean, so that no visible lamp dominates.
 inline mc::Moments picture_means(const Scene& scene, RenderOptions options, int count,
                                  const std::vector<Spectrum>& unit) {
   mc::Moments moments;
@@ -191,10 +192,10 @@ inline RenderOptions options_of(std::uint64_t room, unsigned spp) {
   return options;
 }
 
-/// Whether rooms look alike in two ways, by Welch's t. Skew makes a z-score of 4 of what is 3, so the bound is 5.5,
-/// which one of 10^6 exceeds by chance.
+/// Tests whether two methods render the same image, by Welch's t. Skewness raises z-scores (from 3 to 4), so the bound
+/// is 5.5, which chance exceeds in one case of 10^6.
 struct Agreement {
-  int scenes = 0, outliers = 0; ///< all, and those beyond the two-sided bound of 5 %
+  int scenes = 0, outliers = 0; ///< Number of all scenes, and of scenes beyond the two-sided bound of 5 %.
 
   void add(std::uint64_t room, const mc::Moments& one, const mc::Moments& two, double bound) {
     const double t = (two.mean() - one.mean()) / std::hypot(one.std_error(), two.std_error());

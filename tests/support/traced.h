@@ -1,5 +1,5 @@
 #pragma once
-// What paths bring along a ray, for tests whose answer is known in closed form.
+// Radiance along a ray, for tests with a closed-form answer.
 
 #include <render/pixel_renderer.h>
 
@@ -9,7 +9,7 @@
 
 namespace support {
 
-/// Moments of the radiance that n independent paths find, in one channel. None may be without an answer.
+/// Moments of the radiance of n independent paths in one channel. No path may give an invalid value.
 template <class Scene>
 mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::PathOptions& options, int n,
                    int channel = 0) {
