@@ -38,13 +38,17 @@ template <class Task> auto with_stream(PixelSampler sampler, const Task& task) {
 
 /// A rectangle of pixels. (x, y) is its top left pixel, counted from the top left corner of the image.
 struct Crop {
-  int x = 0, y = 0, width = 0, height = 0; ///< Position and size [pixels].
+  int x = 0,      ///< Left column.
+      y = 0,      ///< Top row.
+      width = 0,  ///< Number of columns.
+      height = 0; ///< Number of rows.
 };
 
 /// The size of an image, and the part that a film contains.
 struct ImageExtent {
-  int width, height; ///< Size of the full image [pixels].
-  Crop crop;         ///< Part in the film.
+  int width,  ///< Width of the full image [pixels].
+      height; ///< Height of the full image [pixels].
+  Crop crop;  ///< Part in the film.
 };
 
 /// Points of the samples of all pixels. Each point is a pure function of the seed, the pixel and the sample number. The
@@ -61,8 +65,9 @@ struct PixelPoints {
 
   /// Consecutive points of one randomisation.
   struct PointRange {
-    std::uint32_t pass;       ///< Number of the randomisation.
-    std::uint32_t begin, end; ///< Points [begin, end).
+    std::uint32_t pass;  ///< Number of the randomisation.
+    std::uint32_t begin, ///< First point.
+        end;             ///< End of the points; not included.
   };
 
   /// Calls task(range) for the ranges of points in point set `set` that belong to the samples [first, last) of a pixel.

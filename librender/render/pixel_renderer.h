@@ -19,9 +19,10 @@ extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolPa
 
 /// Counts of samples and rays.
 struct RenderStats {
-  std::uint64_t samples = 0, rays = 0; ///< Number of samples and of rays.
-  std::uint64_t invalid = 0;           ///< Number of samples that were not finite.
-  InvalidSample first_invalid;         ///< The first of them, in the order of passes, rows, columns and indices.
+  std::uint64_t samples = 0,   ///< Number of samples.
+      rays = 0;                ///< Number of rays.
+  std::uint64_t invalid = 0;   ///< Number of samples that were not finite.
+  InvalidSample first_invalid; ///< The first of them, in the order of passes, rows, columns and indices.
 
   /// Counts an invalid sample.
   void add(const InvalidSample& sample);

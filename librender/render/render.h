@@ -11,11 +11,12 @@ namespace render {
 
 /// Progress of a render.
 struct Progress {
-  double fraction = 0;                 ///< Share of the work that is done, in [0,1].
-  std::uint64_t samples = 0, rays = 0; ///< Number of samples and of rays so far.
-  double seconds = 0;                  ///< Time since the start [s].
-  double relative_error = 0;           ///< Error in the scope of the options; see Film. Infinite while unknown.
-  double outlier_dominated = 0;        ///< Share of outlier-dominated pixels at the last estimate of the error.
+  double fraction = 0;          ///< Share of the work that is done, in [0,1].
+  std::uint64_t samples = 0,    ///< Number of samples so far.
+      rays = 0;                 ///< Number of rays so far.
+  double seconds = 0;           ///< Time since the start [s].
+  double relative_error = 0;    ///< Error in the scope of the options; see Film. Infinite while unknown.
+  double outlier_dominated = 0; ///< Share of outlier-dominated pixels at the last estimate of the error.
 };
 
 /// Largest share of outlier-dominated pixels with which an image may reach a target error.
@@ -26,7 +27,8 @@ inline constexpr int max_branches = 1024;
 
 /// Options of a render.
 struct RenderOptions {
-  int width = 256, height = 256; ///< Size of the full image [pixels].
+  int width = 256,  ///< Width of the full image [pixels].
+      height = 256; ///< Height of the full image [pixels].
   /// Part to render; none: all. Without adaptive sampling its pixels have the same bits as in the full image.
   std::optional<Crop> crop;
   int spp = 64;                       ///< Samples per pixel; ignored if `seconds` or `target_error` is given.
@@ -49,14 +51,16 @@ struct RenderOptions {
 
 /// Image and statistics of a render.
 struct RenderResult {
-  Image image;                         ///< Image, with variances if every pixel has at least two point sets.
-  std::uint64_t samples = 0, rays = 0; ///< Number of samples of pixels, and number of rays including light paths.
-  double spp = 0;                      ///< Mean number of samples per pixel.
-  std::uint32_t estimates = 0;         ///< Number of independent point sets per pixel behind the variance.
-  double seconds = 0, cpu_seconds = 0; ///< Wall-clock time and CPU time [s].
-  double relative_error = 0;           ///< RelativeError::value of the image.
-  double worst_error = 0;              ///< RelativeError::value of the worst block.
-  double outlier_dominated = 0;        ///< Share of pixels with an unreliable error bar; see Film::outlier_dominated.
+  Image image;                  ///< Image, with variances if every pixel has at least two point sets.
+  std::uint64_t samples = 0,    ///< Number of samples of pixels.
+      rays = 0;                 ///< Number of rays, including light paths.
+  double spp = 0;               ///< Mean number of samples per pixel.
+  std::uint32_t estimates = 0;  ///< Number of independent point sets per pixel behind the variance.
+  double seconds = 0,           ///< Wall-clock time [s].
+      cpu_seconds = 0;          ///< CPU time [s].
+  double relative_error = 0;    ///< RelativeError::value of the image.
+  double worst_error = 0;       ///< RelativeError::value of the worst block.
+  double outlier_dominated = 0; ///< Share of pixels with an unreliable error bar; see Film::outlier_dominated.
   /// Samples per pixel at which the target error was reached with too many outlier-dominated pixels; 0: never.
   double unreliable_target_spp = 0;
   std::uint64_t invalid = 0;   ///< Number of samples that were not finite; the image leaves them out.
@@ -78,8 +82,8 @@ struct RenderResult {
 ///   light paths : their number belongs to the mean number of samples per pixel. They are dealt to the point sets, too.
 ///   adaptive : about the first quarter is an even pilot, which alone determines all later rates; see adaptive_plan().
 ///   throws  : Error for a size, sample count, time or error that is not positive. Error for a crop that is not inside
-///             the image. Error for options that exclude each other, and for a depth or number of branches out of range.
-///             Error for a strategy that cannot find every light of the scene (finds_all_lights).
+///             the image. Error for options that exclude each other, and for a depth or number of branches out of
+///             range. Error for a strategy that cannot find every light of the scene (finds_all_lights).
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 } // namespace render

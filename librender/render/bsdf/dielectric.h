@@ -13,7 +13,8 @@ namespace render {
 
 /// Fresnel reflectance and direction of refraction of a smooth dielectric boundary.
 struct Fresnel {
-  Float reflectance, cos_t; ///< Reflectance; and cosine of refraction, 0 at total internal reflection.
+  Float reflectance, ///< Share of reflected light.
+      cos_t;         ///< Cosine of refraction; 0 at total internal reflection.
 };
 /// Fresnel equations of a smooth dielectric for unpolarised light: the reflectance is the mean of the squared parallel
 /// and perpendicular amplitudes. At total internal reflection it is 1.

@@ -43,7 +43,9 @@ inline Vec3 half_vector(const Vec3& o, const Vec3& i) {
 
 /// Two directions above the surface and the half vector m that mirrors one to the other.
 struct Reflection {
-  Vec3 wo, wi, m; ///< Directions and half vector.
+  Vec3 wo, ///< Direction toward the viewer.
+      wi,  ///< Direction toward the light.
+      m;   ///< Half vector.
 
   /// m depends on both directions alone, so that sample, eval and pdf use the same half vector.
   Reflection(const Vec3& o, const Vec3& i) : wo(o), wi(i), m(half_vector(o, i)) {}

@@ -81,7 +81,7 @@ template <class Facets> class RoughConductor {
   bool is_near_specular() const { return facets_.alpha() < near_specular_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
-  // for larger alpha, light paths cost more than they gain
+  /// Whether alpha is at most 0.2. For larger alpha, light paths cost more than they gain.
   bool casts_caustics() const { return facets_.alpha() <= Float(0.2); }
 
  private:

@@ -21,7 +21,8 @@ class RoughFresnel {
  public:
   /// Shares of light.
   struct Albedos {
-    Float reflected, transmitted; ///< Reflected and transmitted shares.
+    Float reflected, ///< Reflected share.
+        transmitted; ///< Transmitted share.
   };
 
   /// Builds the table. The caller checks the arguments.

@@ -76,6 +76,7 @@ template <class Base> class CoatedDiffuse {
   bool casts_caustics() const { return false; }
 
  protected:
+  /// 1 / pi.
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
   /// name : material name for error messages.
@@ -85,6 +86,7 @@ template <class Base> class CoatedDiffuse {
                checked_reflectance(name + ": specularReflectance", specular));
   }
 
+  /// Replaces the colours of base and coat.
   void set_colors(const Spectrum& diffuse, const Spectrum& specular) {
     diffuse_ = diffuse;
     specular_ = specular;
@@ -99,6 +101,7 @@ template <class Base> class CoatedDiffuse {
   }
   /// Fresnel reflectance of the coat at this cosine.
   Float fresnel(Float cosine) const { return fresnel_dielectric(std::min(cosine, Float(1)), eta_).reflectance; }
+  /// BSDF of the coloured base [1/sr].
   Spectrum base_value(const Reflection& r, Float f) const { return diffuse_ * base_.value(r, f); }
 
  private:

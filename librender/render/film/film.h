@@ -13,13 +13,16 @@ namespace render {
 
 /// Location of a sample that was not finite: enough to trace it again.
 struct InvalidSample {
-  int x = 0, y = 0;                  ///< Pixel of the full image.
-  std::uint32_t pass = 0, index = 0; ///< Pass of the pixel's points, and index of the point in the pass.
+  int x = 0,              ///< Column in the full image.
+      y = 0;              ///< Row in the full image.
+  std::uint32_t pass = 0, ///< Randomisation of the pixel's points; see PixelPoints.
+      index = 0;          ///< Index of the point in the randomisation.
 };
 
 /// Statistics of the light path contributions of a pixel; see Film::add_light_splat.
 struct LightSums {
-  double squares = 0, largest = 0;                         ///< Sum of squared luminances, and largest luminance.
+  double squares = 0,                                      ///< Sum of squared luminances.
+      largest = 0;                                         ///< Largest luminance.
   Eigen::Array3d channel_largest = Eigen::Array3d::Zero(); ///< Largest value per channel.
 
   /// Adds one contribution.
@@ -35,11 +38,13 @@ struct LightSums {
 /// Statistics of a pixel's samples: spread, extremes and jumps. Plain sums need less memory than mc::Moments of
 /// luminance and channels, and no division for each sample.
 struct SampleSums {
-  std::uint64_t count = 0;                                 ///< Number of samples.
-  double sum = 0, squares = 0, largest = 0;                ///< Sum, sum of squares and maximum of luminances.
-  Eigen::Array3d channel_sums = Eigen::Array3d::Zero();    ///< Sums per channel.
-  Eigen::Array3d channel_squares = Eigen::Array3d::Zero(); ///< Sums of squares per channel.
-  Eigen::Array3d channel_largest = Eigen::Array3d::Zero(); ///< Maxima per channel.
+  std::uint64_t count = 0;                                                          ///< Number of samples.
+  double sum = 0,                                                                   ///< Sum of luminances.
+      squares = 0,                                                                  ///< Sum of squared luminances.
+      largest = 0;                                                                  ///< Largest luminance.
+  Eigen::Array3d channel_sums = Eigen::Array3d::Zero();                             ///< Sums per channel.
+  Eigen::Array3d channel_squares = Eigen::Array3d::Zero();                          ///< Sums of squares per channel.
+  Eigen::Array3d channel_largest = Eigen::Array3d::Zero();                          ///< Maxima per channel.
   Eigen::Array3d channel_smallest = Eigen::Array3d::Constant(mc::infinity<double>); ///< Minima per channel.
 
   /// Adds one sample.
@@ -87,8 +92,8 @@ struct PixelEstimate {
 /// uses the samples as if independent, with SampleSums::effective_sample_count as degrees of freedom. If the noise area
 /// is 1, the smaller bound counts.
 struct RelativeError {
-  /// The estimate, and the bound of 95 % confidence.
-  double value = mc::infinity<double>, bound = mc::infinity<double>;
+  double value = mc::infinity<double>, ///< The estimate.
+      bound = mc::infinity<double>;    ///< Upper bound with 95 % confidence.
 };
 
 /// Pixels over which errors are averaged.
@@ -98,7 +103,8 @@ enum class ErrorScope {
 };
 /// Errors of a film in both scopes.
 struct RelativeErrors {
-  RelativeError image, worst_block; ///< Over all pixels, and in the worst block.
+  RelativeError image, ///< Error over all pixels.
+      worst_block;     ///< Error of the worst block.
 
   /// The error of a scope.
   const RelativeError& of(ErrorScope which) const { return which == ErrorScope::image ? image : worst_block; }

@@ -31,7 +31,8 @@ struct Aov {
 
 /// Image of linear sRGB radiance, with optional variances. Rows are stored from the top, pixels from the left.
 struct Image {
-  int width = 0, height = 0;                        ///< Size [pixels].
+  int width = 0,                                    ///< Number of columns.
+      height = 0;                                   ///< Number of rows.
   std::vector<Spectrum> pixels;                     ///< Values.
   std::vector<Spectrum> variance;                   ///< Variance of each pixel's mean, per channel; empty: unknown.
   std::map<std::string, std::vector<float>> layers; ///< Further channels by their names in OpenEXR; see layers.h.

@@ -18,8 +18,9 @@ struct SamplingPlan {
 
 /// Square tiles of pixels that are sampled together.
 struct Tiling {
-  int side = 1;     ///< Width and height of a tile [pixels].
-  int x = 0, y = 0; ///< Position of the film's first pixel in its tile.
+  int side = 1; ///< Width and height of a tile [pixels].
+  int x = 0,    ///< Column of the film's first pixel in its tile.
+      y = 0;    ///< Row of the film's first pixel in its tile.
 };
 
 /// Plans samples in proportion to the error that a pilot measured. See docs/methods/adaptive-sampling.md. The rate of a

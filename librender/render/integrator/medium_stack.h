@@ -7,7 +7,8 @@ namespace render {
 
 /// The medium of a ray and the medium around that medium. Deeper nesting is not stored.
 struct MediumStack {
-  const HomogeneousMedium *current = nullptr, *outer = nullptr; ///< Null for vacuum.
+  const HomogeneousMedium *current = nullptr, ///< Medium of the ray; null for vacuum.
+      *outer = nullptr;                       ///< Medium around it; null for vacuum.
 };
 
 /// Media at the origin of a ray, from the surfaces that the ray would leave if nothing stopped it.

@@ -87,7 +87,6 @@ template <class SceneType> class PathReuseIntegrator {
     double mis_ratio; ///< Squared density ratio of light paths, up to a factor common to all forks.
   };
 
-  // Traces a path beyond its fork. Returns its next vertex if it can be shared; adds all other light to the pixel.
   template <class Stream, class AddRadiance>
   std::optional<SharedVertex> extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
                                                       std::uint64_t& rays, const AddRadiance& add_radiance) const;
@@ -101,6 +100,7 @@ template <class SceneType> class PathReuseIntegrator {
   Steps steps_;
 };
 
+/// Traces a path beyond its fork. Returns its next vertex if it can be shared; adds all other light to the pixel.
 template <class SceneType>
 template <class Stream, class AddRadiance>
 auto PathReuseIntegrator<SceneType>::extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
@@ -180,6 +180,7 @@ void PathReuseIntegrator<SceneType>::distribute(const SharedVertex& shared, cons
   }
 }
 
+/// One sample of the radiance of each pixel, with reuse of shared vertices.
 template <class SceneType>
 template <class Stream>
 auto PathReuseIntegrator<SceneType>::radiances(std::array<CameraRay<Stream>, pixels>& tile, std::uint64_t& rays) const
