@@ -23,6 +23,7 @@ template <Real S, int N> S accurate_dot(const Vec<S, N>& a, const Vec<S, N>& b) 
     return a.dot(b);
   }
 }
+/// Same for three components, with deduced size.
 template <Real S> S accurate_dot(const Vec3<S>& a, const Vec3<S>& b) { return accurate_dot<S, 3>(a, b); }
 
 } // namespace mc

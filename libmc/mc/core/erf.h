@@ -7,12 +7,14 @@ namespace mc {
 ///   error  : relative error at most 4 eps.
 ///   Source : Boost.Math.
 float erfc(float x);
+/// Same for double.
 double erfc(double x);
 
 /// Inverse of erfc(): the x with erfc(x) = p, for p in (0, 2).
 ///   error  : relative error at most 4 eps.
 ///   Source : Boost.Math.
 float erfc_inv(float p);
+/// Same for double.
 double erfc_inv(double p);
 
 } // namespace mc

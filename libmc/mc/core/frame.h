@@ -11,7 +11,9 @@ namespace mc {
 ///   error  : Columns are unit and orthogonal to within 4 eps for any unit z, also at both poles.
 ///   Source : [DuffEtAl17], the branchless construction with copysign, which has no pole.
 template <Real S> struct Frame {
-  Vec3<S> x, y, z; ///< Axes of the frame in world coordinates.
+  Vec3<S> x, ///< First axis in world coordinates.
+      y,     ///< Second axis.
+      z;     ///< Third axis, the normal.
 
   /// The frame with z = n, for a unit vector n.
   static Frame from_z(const Vec3<S>& n) {

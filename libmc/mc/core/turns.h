@@ -10,7 +10,10 @@
 namespace mc {
 
 /// Cosine and sine of one angle.
-template <Real S> struct CosSin { S cos, sin; }; ///< Each in [-1, 1] up to rounding.
+template <Real S> struct CosSin {
+  S cos,   ///< Cosine.
+      sin; ///< Sine.
+};
 
 /// Cosine and sine of t turns, |t| <= 1/8. Each is one polynomial without branch or call, so that loops vectorise.
 ///   error  : 2 ulp for float and for double.

@@ -53,12 +53,13 @@ inline const S pi = [] {
 /// The largest S below 1, which is the largest uniform number in [0,1).
 template <Real S> inline const S one_minus_epsilon = S(1) - std::numeric_limits<S>::epsilon() / 2;
 
-/// Clamps u, or each component of u, to [0, one_minus_epsilon]. Inverses of warps use it, because rounding may carry
+/// Clamps u to [0, one_minus_epsilon]. Inverses of warps use it, because rounding may carry
 /// their result out of [0,1).
 template <Real S> S clamp_to_unit(const S& u) {
   const S at_least_0 = u < 0 ? S(0) : u;
   return at_least_0 >= 1 ? one_minus_epsilon<S> : at_least_0;
 }
+/// Same for each component of a vector.
 template <Real S, int N> Vec<S, N> clamp_to_unit(Vec<S, N> u) {
   for (int i = 0; i < N; ++i) u[i] = clamp_to_unit(u[i]);
   return u;

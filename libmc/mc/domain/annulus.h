@@ -16,9 +16,11 @@ template <Real S> struct Annulus {
   using Point = Vec2<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::area;
 
-  S inner = 0, outer = 1; ///< Radii.
+  S inner = 0,   ///< Inner radius.
+      outer = 1; ///< Outer radius.
 
   /// The unit disk.
   Annulus() = default;

@@ -13,6 +13,7 @@ template <Real S> struct Ball {
   using Point = Vec3<S>;
   using UnitPoint = Vec3<S>;
   static constexpr int dim = 3;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::volume;
 
   Point from_unit(const UnitPoint& v) const {

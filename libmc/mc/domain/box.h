@@ -14,9 +14,11 @@ template <Real S, int N> struct Box {
   using Point = Vec<S, N>;
   using UnitPoint = Vec<S, N>;
   static constexpr int dim = N;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = N == 2 ? Measure::area : Measure::volume;
 
-  Point lo, hi; ///< Lower and upper corner.
+  Point lo, ///< Lower corner.
+      hi;   ///< Upper corner.
 
   /// The unit cube.
   Box() requires(N != Eigen::Dynamic) : lo(Point::Zero()), hi(Point::Ones()) {}

@@ -16,6 +16,7 @@ template <Real S> struct Cap {
   using Point = Vec3<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::solid_angle;
 
   S h = 1; ///< 1 - cos(angle).

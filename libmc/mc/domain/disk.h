@@ -13,6 +13,7 @@ template <Real S> struct Disk {
   using Point = Vec2<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::area;
 
   Point from_unit(const UnitPoint& v) const { return polar_point<S>(safe_sqrt<S>(v[0]), v[1]); }

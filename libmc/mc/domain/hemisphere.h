@@ -14,6 +14,7 @@ template <Real S> struct Hemisphere {
   using Point = Vec3<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::solid_angle;
 
   Point from_unit(const UnitPoint& v) const {

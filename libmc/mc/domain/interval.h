@@ -16,9 +16,11 @@ template <Real S> struct Interval {
   using Point = S;
   using UnitPoint = S;
   static constexpr int dim = 1;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::length;
 
-  S lo = 0, hi = 1; ///< Bounds.
+  S lo = 0,   ///< Lower bound.
+      hi = 1; ///< Upper bound.
 
   /// The unit interval.
   Interval() = default;
@@ -48,9 +50,11 @@ template <Real S> struct HalfLine {
   using Point = S;
   using UnitPoint = S;
   static constexpr int dim = 1;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::length;
 
-  S origin = 0, scale = 1; ///< End point, and distance of the image of v = 1/2 from it.
+  S origin = 0,  ///< End point.
+      scale = 1; ///< Distance of the image of v = 1/2 from the end point, with sign.
 
   /// The positive half line.
   HalfLine() = default;
@@ -87,9 +91,11 @@ template <Real S> struct RealLine {
   using Point = S;
   using UnitPoint = S;
   static constexpr int dim = 1;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::length;
 
-  S center = 0, scale = 1; ///< Image of v = 1/2, and width of the chart about it.
+  S center = 0,  ///< Image of v = 1/2.
+      scale = 1; ///< Width of the chart about the center.
 
   /// The real line with center 0 and scale 1.
   RealLine() = default;

@@ -16,9 +16,12 @@ template <Real S> struct Parallelogram {
   using Point = Vec3<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::area;
 
-  Point origin = Point::Zero(), a = Point::UnitX(), b = Point::UnitY(); ///< Corner and edge vectors.
+  Point origin = Point::Zero(), ///< Corner.
+      a = Point::UnitX(),       ///< First edge vector.
+      b = Point::UnitY();       ///< Second edge vector.
 
   /// The unit square in the plane z = 0.
   Parallelogram() = default;

@@ -27,9 +27,12 @@ template <Real S, int Corners> struct Patch {
   using Point = Vec3<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::solid_angle;
 
-  Vec3<S> origin{0, 0, 1}, edge1{1, 0, 0}, edge2{0, 1, 0}; ///< Corner relative to the viewer, and edge vectors.
+  Vec3<S> origin{0, 0, 1}, ///< Corner relative to the viewer.
+      edge1{1, 0, 0},      ///< First edge vector.
+      edge2{0, 1, 0};      ///< Second edge vector.
 
   /// A right triangle or square in the plane z = 1.
   Patch() = default;

@@ -28,9 +28,11 @@ template <Domain A, Domain B>
 requires std::same_as<typename A::Scalar, typename B::Scalar>
 struct ProductDomain {
   using Scalar = typename A::Scalar;
-  static constexpr int dim = A::dim + B::dim, split = detail::numbers<typename A::Point>;
+  static constexpr int dim = A::dim + B::dim,     ///< Number of dimensions.
+      split = detail::numbers<typename A::Point>; ///< Index of the first coordinate of b.
   using Point = Vec<Scalar, split + detail::numbers<typename B::Point>>;
   using UnitPoint = Vec<Scalar, dim>;
+  /// Measure of densities on the domain.
   static constexpr Measure measure =
       A::measure == Measure::length && B::measure == Measure::length ? Measure::area : Measure::volume;
 

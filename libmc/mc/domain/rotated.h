@@ -14,6 +14,7 @@ template <Domain D> struct RotatedDomain {
   using Point = typename D::Point;
   using UnitPoint = typename D::UnitPoint;
   static constexpr int dim = D::dim;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = D::measure;
 
   D inner;             ///< The set about +z.

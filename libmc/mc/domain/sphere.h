@@ -31,6 +31,7 @@ template <Real S> struct Sphere {
   using Point = Vec3<S>;
   using UnitPoint = Vec2<S>;
   static constexpr int dim = 2;
+  /// Measure of densities on the domain.
   static constexpr Measure measure = Measure::solid_angle;
 
   Point from_unit(const UnitPoint& v) const {

@@ -23,7 +23,8 @@ struct Estimate {
 
   /// Confidence interval.
   struct Interval {
-    double lo, hi; ///< Bounds.
+    double lo, ///< Lower bound.
+        hi;    ///< Upper bound.
   };
   /// Two-sided confidence interval. Throws Error unless 0 < confidence < 1.
   Interval interval(double confidence = 0.95) const;

@@ -57,8 +57,9 @@ struct NotFinite : Error {
   /// `bad_points` of `of_points` values are not finite. `point` is the first of them and `where` its text in the
   /// message.
   NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view where);
-  std::uint64_t bad, points; ///< Number of points with such a value, and number of all points.
-  std::vector<double> u;     ///< The first such point.
+  std::uint64_t bad,     ///< Number of points with such a value.
+      points;            ///< Number of all points.
+  std::vector<double> u; ///< The first such point.
 };
 
 /// Report to IntegrateOptions::progress.
@@ -120,7 +121,7 @@ struct Integral {
   StopReason stop = StopReason::converged; ///< Reason for the end of the run.
   /// Agreement of independent rounds for stratified, vegas and tree; 0 for plain and rqmc. Each difference is converted
   /// from Student's t to a normal deviate and squared. chi2 is near chi2_dof if the rounds agree.
-  double chi2 = 0, chi2_dof = 0;
+  double chi2 = 0, chi2_dof = 0; ///< Statistic, and its degrees of freedom.
   /// Whether the rounds agree: the probability of a larger chi2 is above 1e-4. If false, the error bar is not reliable.
   bool consistent = true;
   double confidence = 0.95;                ///< Confidence level of the interval.

@@ -22,7 +22,8 @@ namespace mc {
 ///   throws : Error unless beta > 0 and 0 <= alpha <= 1.
 ///   Source : [Veach97] section 9.2.3.
 template <Real S> struct Heuristic {
-  S beta = 1, alpha = 0; ///< Exponent, and cutoff relative to the largest q.
+  S beta = 1,    ///< Exponent.
+      alpha = 0; ///< Cutoff relative to the largest q.
 
   /// The balance heuristic.
   static Heuristic balance() { return {}; }
@@ -187,6 +188,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
   S total_ = 0;
 };
 
+/// Deduces the warps.
 template <class S, std::size_t N, class... Warps>
 MultipleImportance(const std::array<S, N>&, const Heuristic<S>&, Warps...) -> MultipleImportance<Warps...>;
 

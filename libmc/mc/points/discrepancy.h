@@ -39,7 +39,8 @@ double jittered_periodic_mean_square(double count, int dim);
 
 /// Smallest distance of two points in the cube, with and without wrapping around its faces.
 struct SmallestDistance {
-  double plain, periodic; ///< Distances; infinity for a single point.
+  double plain, ///< Distance in the cube; infinity for a single point.
+      periodic; ///< Distance with wrapping; infinity for a single point.
 };
 /// Smallest distances of a point set.
 ///   cost   : At most n^2 dim operations. Less if the first axis separates the points.

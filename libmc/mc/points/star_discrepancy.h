@@ -10,7 +10,8 @@ namespace mc {
 
 /// Bounds of the star discrepancy.
 struct StarDiscrepancy {
-  double lower = 0, upper = 1; ///< Bounds; equal if the value was found exactly.
+  double lower = 0, ///< Lower bound.
+      upper = 1;    ///< Upper bound, equal to `lower` if the value was found exactly.
   /// Whether the value was found exactly.
   bool exact() const { return lower == upper; }
 };

@@ -12,7 +12,7 @@ namespace mc {
 ///   error  : RMS error near N^-3/2 for smooth two-dimensional integrands. Different pairs are uncorrelated.
 ///   Source : [Sobol67], shuffled scrambling [Burley20].
 struct PaddedSobol {
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 0; ///< Seed of the randomisation.
 
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
     const std::uint64_t key = hash(seed, dim / 2);
@@ -30,7 +30,8 @@ struct PaddedSobol {
 
   /// The part of the computation that all points of a pair share: pair(index, number) = pair_key(number).point(index).
   struct PairKey {
-    std::uint64_t key, second; ///< Keys of the shuffle and of the second coordinate.
+    std::uint64_t key, ///< Key of the shuffle and of the first coordinate.
+        second;        ///< Key of the second coordinate.
     /// Both coordinates of point `index`.
     template <Real S> Vec2<S> point(std::uint64_t index) const {
       const std::uint32_t i = shuffled(index, key);

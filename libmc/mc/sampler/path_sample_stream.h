@@ -56,15 +56,15 @@ template <Real S, class Pairs> class PathSampleStream {
 
 /// Point set without pairs: all numbers are independent.
 struct IndependentPairs {
-  static constexpr std::uint32_t pairs = 0;
-  std::uint64_t seed; ///< Seed of the set.
+  static constexpr std::uint32_t pairs = 0; ///< Number of pairs from the point set.
+  std::uint64_t seed;                       ///< Seed of the set.
   /// The set for `seed`; ignores the count.
   IndependentPairs(std::uint64_t s, std::uint32_t) : seed(s) {}
 };
 
 /// Point set of the first pairs of PaddedSobol, for any count.
 struct SobolPairs {
-  static constexpr std::uint32_t pairs = 6;
+  static constexpr std::uint32_t pairs = 6;     ///< Number of pairs from the point set.
   std::uint64_t seed;                           ///< Seed of the set.
   std::array<PaddedSobol::PairKey, pairs> keys; ///< Shared keys of the pairs.
 
@@ -85,9 +85,9 @@ struct SobolPairs {
 
 /// Point set of the first pairs of Stratified, for `count` points.
 struct StratifiedPairs {
-  static constexpr std::uint32_t pairs = 6;
-  std::uint64_t seed;  ///< Seed of the set.
-  std::uint32_t count; ///< Number of points before any branch.
+  static constexpr std::uint32_t pairs = 6; ///< Number of pairs from the point set.
+  std::uint64_t seed;                       ///< Seed of the set.
+  std::uint32_t count;                      ///< Number of points before any branch.
 
   /// The set of n points for seed `s`.
   StratifiedPairs(std::uint64_t s, std::uint32_t n) : seed(s), count(n) {}

@@ -9,10 +9,11 @@ namespace mc {
 
 /// RMS error at one N, from independent repetitions compared with the true value.
 struct RmsError {
-  double n = 0;          ///< Number of samples N of one repetition.
-  double rms = 0;        ///< Root-mean-square error.
-  double lo = 0, hi = 0; ///< 95 % confidence interval of the RMS error.
-  double seconds = 0;    ///< CPU seconds of one repetition, if the caller measures them.
+  double n = 0;       ///< Number of samples N of one repetition.
+  double rms = 0;     ///< Root-mean-square error.
+  double lo = 0,      ///< Lower end of the 95 % confidence interval of the RMS error.
+      hi = 0;         ///< Upper end.
+  double seconds = 0; ///< CPU seconds of one repetition, if the caller measures them.
   /// Whether rms = hi is only an upper bound, because the reference value is not accurate enough.
   bool is_bound = false;
 };
@@ -37,8 +38,10 @@ RmsError rms_error(double n, std::span<const double> estimates, double truth, do
 
 /// A power law rms = c N^slope.
 struct PowerLaw {
-  double slope = 0, lo = 0, hi = 0; ///< Exponent and its 95 % confidence interval.
-  double constant = 0;              ///< Factor c.
+  double slope = 0,    ///< Exponent.
+      lo = 0,          ///< Lower end of its 95 % confidence interval.
+      hi = 0;          ///< Upper end.
+  double constant = 0; ///< Factor c.
 };
 
 /// Fits a power law by least squares of log rms against log N. The log of an RMS error of R repetitions has variance

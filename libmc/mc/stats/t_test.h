@@ -36,7 +36,8 @@ double welch_dof(double variance_a, double dof_a, double variance_b, double dof_
 
 /// Sum of many variances and its effective degrees of freedom, which are few if a few terms dominate.
 struct VarianceSum {
-  double value = 0, squares = 0; ///< Sum of the variances, and the sum behind dof().
+  double value = 0, ///< Sum of the variances.
+      squares = 0;  ///< Sum of squares behind dof().
 
   /// Adds a variance estimated with `dof` degrees of freedom. If `correlated_terms` terms share the same noise, each
   /// contributes fewer degrees of freedom, so that together they contribute as much as one term.

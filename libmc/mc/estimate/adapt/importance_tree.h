@@ -12,9 +12,10 @@ namespace mc {
 /// Samples of an integrand: points of [0,1)^dim, values and weights. The weight is the volume that a point represents:
 /// 1 / (number of points x density of the point).
 struct WeightedSamples {
-  int dim = 0;                         ///< Number of dimensions.
-  std::vector<double> points;          ///< Coordinates, point after point.
-  std::vector<double> values, weights; ///< One value and one weight for each point.
+  int dim = 0;                ///< Number of dimensions.
+  std::vector<double> points; ///< Coordinates, point after point.
+  std::vector<double> values, ///< One value for each point.
+      weights;                ///< One weight for each point.
 
   /// Number of samples.
   std::size_t size() const { return values.size(); }
