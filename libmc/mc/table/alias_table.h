@@ -20,6 +20,7 @@ class AliasTable {
  public:
   using Scalar = double;
 
+  /// Builds the table for the given weights in O(n).
   explicit AliasTable(std::span<const double> weights);
 
   DiscreteSample<double> sample_index(double u) const {

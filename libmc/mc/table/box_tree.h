@@ -28,10 +28,14 @@ class BoxTree {
  public:
   /// One side of a leaf: [u_lo, u_hi) is mapped to [x_lo, x_hi) along an axis.
   struct AxisExtent {
-    std::uint32_t axis;            ///< Axis of the side.
-    double x_lo, x_hi, u_lo, u_hi; ///< Interval in x and its preimage in u.
+    std::uint32_t axis; ///< Axis of the side.
+    double x_lo,        ///< Lower end in x.
+        x_hi,           ///< Upper end in x.
+        u_lo,           ///< Lower end of the preimage in u.
+        u_hi;           ///< Upper end of the preimage in u.
   };
 
+  /// Builds the partition from its nodes in preorder.
   explicit BoxTree(int dim, std::span<const BoxTreeNode> nodes);
   /// The whole cube as one box.
   explicit BoxTree(int dim) : BoxTree(dim, std::vector<BoxTreeNode>(1)) {}

@@ -65,6 +65,7 @@ struct CdfView {
 ///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0.
 class Cdf {
  public:
+  /// Builds the table for the given weights.
   explicit Cdf(std::span<const double> weights);
 
   /// Fills the arrays of a CdfView for the given weights.

@@ -19,6 +19,7 @@ template <Real S> class UniformDiscrete {
  public:
   using Scalar = S;
 
+  /// Uniform distribution over n outcomes.
   explicit UniformDiscrete(std::size_t n) : n_(static_cast<S>(static_cast<double>(n))), pmf_(1 / n_) {
     require(n >= 1 && n <= (1u << 24), "UniformDiscrete: {} outcomes; 1 to 2^24 are supported", n);
   }
@@ -45,6 +46,7 @@ template <Real S> class Bernoulli {
  public:
   using Scalar = S;
 
+  /// Distribution with probability p of outcome 1.
   explicit Bernoulli(S p) : p_(p) {
     require(p >= 0 && p <= 1, "Bernoulli: probability {} must lie in [0, 1]", static_cast<double>(p));
   }
@@ -71,6 +73,7 @@ template <Real S, std::size_t N> class ShortDiscrete {
  public:
   using Scalar = S;
 
+  /// Distribution over weights.size() outcomes.
   explicit ShortDiscrete(std::span<const S> weights) : size_(weights.size()) {
     require(size_ >= 1 && size_ <= N, "ShortDiscrete: {} weights; 1 to {} are supported", size_, N);
     S least = 0;

@@ -14,7 +14,8 @@ namespace mc {
 
 /// The interval [0,1] as a type. Code of a table on it needs no division by the width.
 struct UnitInterval {
-  static constexpr int lo = 0, hi = 1;
+  static constexpr int lo = 0, ///< Lower end.
+      hi = 1;                  ///< Upper end.
 };
 
 /// Interior ends of n cells of equal width on [0,1].
@@ -97,6 +98,7 @@ template <Real S> class TableDist1D {
   using Scalar = S;
   using Domain = Interval<S>;
 
+  /// A distribution over weights.size() cells of `interval`.
   explicit TableDist1D(std::span<const double> weights, Interval<S> interval = {})
       : cdf_(weights), interval_(interval) {
     require(

@@ -28,6 +28,7 @@ template <Real S> class TableDist2D {
   using Scalar = S;
   using Domain = Square<S>;
 
+  /// A distribution over width x height cells; weights are in row order.
   TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height)
       : TableDist2D(make_rows(weights, width, height)) {}
 
@@ -67,7 +68,8 @@ template <Real S> class TableDist2D {
 
   /// A sampled cell.
   struct CellSample {
-    std::size_t x, y;   ///< Column and row.
+    std::size_t x,      ///< Column.
+        y;              ///< Row.
     S pmf;              ///< Probability of the cell, > 0.
     Vec2<S> u_remapped; ///< Uniform in [0,1)^2 and independent of the cell.
   };

@@ -28,7 +28,9 @@ template <Real S, int N> class TableDistTree {
   using Domain = Box<S, N>;
   using Point = Vec<S, N>;
 
+  /// Builds the partition from its nodes in preorder, see BoxTree.
   explicit TableDistTree(std::span<const BoxTreeNode> nodes) : tree_(N, nodes) {}
+  /// The distribution of a tree with N dimensions.
   explicit TableDistTree(BoxTree tree) : tree_(std::move(tree)) {
     require(tree_.dim() == N, "TableDistTree: a tree of {} dimensions; {} are needed", tree_.dim(), N);
   }

@@ -22,6 +22,7 @@ template <Real S> struct UniformAnnulus {
   Domain ring;
 
   UniformAnnulus() = default;
+  /// A ring with the given radii.
   UniformAnnulus(S inner, S outer) : ring(inner, outer) {}
 
   Domain domain() const { return ring; }

@@ -24,7 +24,9 @@ template <Real S> class BeckmannNormals {
   using Scalar = S;
   using Domain = Hemisphere<S>;
 
+  /// An isotropic surface of roughness alpha.
   explicit BeckmannNormals(S alpha) : BeckmannNormals(alpha, alpha) {}
+  /// A surface of roughness ax along x and ay along y.
   BeckmannNormals(S ax, S ay) : alpha_x_(ax), alpha_y_(ay) {
     require(ax >= S(1e-6) && ax <= S(1e3) && ay >= S(1e-6) && ay <= S(1e3),
             "BeckmannNormals: alpha_x = {}, alpha_y = {}: both must lie in [1e-6, 1000]", static_cast<double>(ax),

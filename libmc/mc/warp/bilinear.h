@@ -18,9 +18,13 @@ template <Real S> struct Bilinear {
   using Scalar = S;
   using Domain = Square<S>;
 
-  S w00 = 1, w10 = 1, w01 = 1, w11 = 1; ///< Value w_xy at the corner (x, y); the largest is 1.
+  S w00 = 1,   ///< Value at the corner (0, 0). The largest of the four values is 1.
+      w10 = 1, ///< Value at the corner (1, 0).
+      w01 = 1, ///< Value at the corner (0, 1).
+      w11 = 1; ///< Value at the corner (1, 1).
 
   Bilinear() = default;
+  /// A density from the values w_xy at the corners (x, y), in any scale.
   Bilinear(S w00_, S w10_, S w01_, S w11_) : w00(w00_), w10(w10_), w01(w01_), w11(w11_) {
     using std::isfinite, std::max;
     const auto good = [](const S& w) { return isfinite(w) && w >= 0; };

@@ -22,6 +22,7 @@ template <Real S> class BlinnPhong {
   using Scalar = S;
   using Domain = Hemisphere<S>;
 
+  /// A lobe with exponent n.
   explicit BlinnPhong(S n) : n_(n) {
     using std::isfinite;
     require(isfinite(n) && n >= 0, "BlinnPhong: exponent {} must be finite and >= 0", static_cast<double>(n));

@@ -18,9 +18,10 @@ template <Real S> struct Exponential {
   using Scalar = S;
   using Domain = HalfLine<S>;
 
-  S rate = 1;
+  S rate = 1; ///< Rate of decay [1/length].
 
   Exponential() = default;
+  /// An exponential distribution with the given rate.
   explicit Exponential(S rate_) : rate(rate_) {
     require(
         rate > 0 && is_valid_scale(S(1 / rate)),
@@ -56,9 +57,11 @@ template <Real S> struct TrimmedExponential {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S rate = 1, length = 1;
+  S rate = 1,     ///< Rate of decay [1/length]; negative for growth.
+      length = 1; ///< Upper end of the interval.
 
   TrimmedExponential() = default;
+  /// An exponential distribution on [0, length] with the given rate.
   TrimmedExponential(S rate_, S length_) : rate(rate_), length(length_) {
     using std::isfinite;
     require(

@@ -5,10 +5,9 @@
 /// normalized and turned upward. An error of eps in wi turns this normal by eps / |s|. A surface of roughness alpha
 /// amplifies the turn by 1 / alpha.
 ///
-/// Hence pdf(wi) satisfies its stated bound at the rounded wi. It may still differ from the density at the sampled normal,
-/// away from grazing incidence by up to 8 eps / (alpha |s|). For float, alpha = 1e-4 and |s| = 2 this is half a
-/// percent.
-/// A caller that still has the normal avoids the loss:
+/// Hence pdf(wi) satisfies its stated bound at the rounded wi. It may still differ from the density at the sampled
+/// normal, away from grazing incidence by up to 8 eps / (alpha |s|). For float, alpha = 1e-4 and |s| = 2 this is half a
+/// percent. A caller that still has the normal avoids the loss:
 ///   m = normals.sample(u);  wi = lobe.direction(m);  pdf = lobe.pdf_at_normal(m)
 
 #include <mc/core/dot.h>
@@ -152,12 +151,14 @@ template <Warp N> struct MicrofacetGeometry {
 template <Warp N> class Reflected {
  public:
   using Scalar = typename N::Scalar;
-  using S = Scalar;
+  using S = Scalar; ///< Shorthand for Scalar.
   using Domain = Sphere<S>;
 
+  /// Reflects wo about normals that do not depend on wo.
   Reflected(const Vec3<S>& wo, N normals) requires(!VisibleNormalDistribution<N>) : geometry_{std::move(normals), wo} {
     geometry_.require_unit("Reflected");
   }
+  /// Reflects normals.wo() about the normals visible from it.
   explicit Reflected(N normals) requires VisibleNormalDistribution<N> : geometry_{normals, normals.wo()} {}
 
   Domain domain() const { return {}; }
@@ -182,7 +183,9 @@ template <Warp N> class Reflected {
   detail::MicrofacetGeometry<N> geometry_;
 };
 
+/// Deduces the type of the normals.
 template <class S, class N> Reflected(const Vec3<S>&, N) -> Reflected<N>;
+/// Deduces the type of the normals.
 template <class N> explicit Reflected(N) -> Reflected<N>;
 
 /// wo refracted through a random normal into a denser medium.
@@ -197,13 +200,15 @@ template <class N> explicit Reflected(N) -> Reflected<N>;
 template <Warp N> class RefractedIn {
  public:
   using Scalar = typename N::Scalar;
-  using S = Scalar;
+  using S = Scalar; ///< Shorthand for Scalar.
   using Domain = Sphere<S>;
 
+  /// Refracts wo through normals that do not depend on wo.
   RefractedIn(const Vec3<S>& wo, N normals, S eta) requires(!VisibleNormalDistribution<N>)
       : RefractedIn(detail::MicrofacetGeometry<N>{std::move(normals), wo}, eta) {
     check();
   }
+  /// Refracts normals.wo() through the normals visible from it.
   RefractedIn(N normals, S eta) requires VisibleNormalDistribution<N>
       : RefractedIn(detail::MicrofacetGeometry<N>{normals, normals.wo()}, eta) {
     check();
@@ -239,7 +244,9 @@ template <Warp N> class RefractedIn {
   S eta_;
 };
 
+/// Deduces the type of the normals.
 template <class S, class N> RefractedIn(const Vec3<S>&, N, S) -> RefractedIn<N>;
+/// Deduces the type of the normals.
 template <class N, class S> RefractedIn(N, S) -> RefractedIn<N>;
 
 /// wo refracted through a random normal into a rarer medium, or reflected at a normal with total internal reflection.
@@ -253,13 +260,15 @@ template <class N, class S> RefractedIn(N, S) -> RefractedIn<N>;
 template <Warp N> class RefractedOut {
  public:
   using Scalar = typename N::Scalar;
-  using S = Scalar;
+  using S = Scalar; ///< Shorthand for Scalar.
   using Domain = Sphere<S>;
 
+  /// Refracts wo through normals that do not depend on wo.
   RefractedOut(const Vec3<S>& wo, N normals, S eta) requires(!VisibleNormalDistribution<N>)
       : RefractedOut(detail::MicrofacetGeometry<N>{std::move(normals), wo}, eta) {
     check();
   }
+  /// Refracts normals.wo() through the normals visible from it.
   RefractedOut(N normals, S eta) requires VisibleNormalDistribution<N>
       : RefractedOut(detail::MicrofacetGeometry<N>{normals, normals.wo()}, eta) {
     check();
@@ -302,7 +311,9 @@ template <Warp N> class RefractedOut {
   S eta_;
 };
 
+/// Deduces the type of the normals.
 template <class S, class N> RefractedOut(const Vec3<S>&, N, S) -> RefractedOut<N>;
+/// Deduces the type of the normals.
 template <class N, class S> RefractedOut(N, S) -> RefractedOut<N>;
 
 } // namespace mc

@@ -23,6 +23,7 @@ template <Real S> class HenyeyGreenstein {
   using Scalar = S;
   using Domain = Sphere<S>;
 
+  /// The distribution with mean cosine g.
   explicit HenyeyGreenstein(S g) : HenyeyGreenstein(g < 0 ? S(1 + g) : S(1 - g), g < 0) {
     require(g > -1 && g < 1, "HenyeyGreenstein: g = {} must lie in (-1, 1)", static_cast<double>(g));
   }
@@ -54,6 +55,7 @@ template <Real S> class HenyeyGreenstein {
     const S t = from_pole(w), q = sqrt(S(h_ * h_ + 2 * g_ * t));
     return {clamp_to_unit<S>((1 + g_) * t / (q * (q + h_))), azimuth_turns<S>(w.x(), w.y())};
   }
+  /// 1 - |g|.
   S one_minus_abs_g() const { return h_; }
   template <Real T> HenyeyGreenstein<T> cast() const { return HenyeyGreenstein<T>(T(h_), front_ < 0); }
 

@@ -20,6 +20,7 @@ template <Real S> struct IsotropicNormal {
   S sigma = 1; ///< Standard deviation of each coordinate.
 
   IsotropicNormal() = default;
+  /// A distribution with standard deviation sigma in each coordinate.
   explicit IsotropicNormal(S sigma_) : sigma(sigma_) {
     require(
         sigma > 0 && is_valid_scale(S(sigma * sigma)),

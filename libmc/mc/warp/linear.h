@@ -18,9 +18,11 @@ template <Real S> struct Linear {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S a = 1, b = 1; ///< End values, scaled so that the larger is 1.
+  S a = 1,   ///< Value at 0. The larger of the two values is 1.
+      b = 1; ///< Value at 1.
 
   Linear() = default;
+  /// A density from its end values, in any scale.
   Linear(S a_, S b_) : a(a_), b(b_) {
     using std::isfinite, std::max;
     require(isfinite(a) && isfinite(b) && a >= 0 && b >= 0 && (a > 0 || b > 0),

@@ -39,9 +39,11 @@ template <Real S> struct Logistic {
   using Scalar = S;
   using Domain = RealLine<S>;
 
-  S mean = 0, scale = 1;
+  S mean = 0,    ///< Mean.
+      scale = 1; ///< Scale; the standard deviation is pi / sqrt(3) times the scale.
 
   Logistic() = default;
+  /// A distribution with the given mean and scale.
   Logistic(S mean_, S scale_) : mean(mean_), scale(scale_) {
     using std::isfinite;
     require(isfinite(mean) && is_valid_scale(scale, mean),
@@ -79,9 +81,12 @@ template <Real S> struct TrimmedLogistic {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S scale, lo, hi; ///< Read only: the constructor derives further constants from them.
+  S scale, ///< Scale. Read only, like lo and hi: the constructor derives further constants from them.
+      lo,  ///< Lower end.
+      hi;  ///< Upper end.
 
   TrimmedLogistic() : TrimmedLogistic(1, -1, 1) {}
+  /// A distribution on [lo, hi] with the given scale.
   TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
     using std::exp, std::expm1, std::isfinite;
     require(is_valid_scale(scale),

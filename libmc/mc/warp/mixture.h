@@ -23,8 +23,10 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
  public:
   using Scalar = typename First::Scalar;
   using Domain = typename First::Domain;
+  /// Number of components.
   static constexpr std::size_t size = 1 + sizeof...(Rest);
 
+  /// A mixture with one weight per component.
   Mixture(const std::array<Scalar, size>& weights, First first, Rest... rest)
       : weights_(weights), warps_(std::move(first), std::move(rest)...) {
     using std::isfinite;
@@ -89,6 +91,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
   std::tuple<First, Rest...> warps_;
 };
 
+/// Deduces the types of the components.
 template <class S, std::size_t N, class... Warps> Mixture(const std::array<S, N>&, Warps...) -> Mixture<Warps...>;
 
 } // namespace mc

@@ -34,6 +34,7 @@ class MixtureN {
   using Scalar = typename D::Scalar;
   using Domain = D;
 
+  /// Component i of `parts` is selected with probability choice.pmf(i).
   MixtureN(D domain, C choice, std::vector<Part> parts)
       : domain_(std::move(domain)), choice_(std::move(choice)), parts_(std::move(parts)) {
     require(parts_.size() == choice_.size(), "MixtureN: {} parts for a choice of {} outcomes; as many are needed",

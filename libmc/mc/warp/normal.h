@@ -18,9 +18,11 @@ template <Real S> struct Normal {
   using Scalar = S;
   using Domain = RealLine<S>;
 
-  S mean = 0, sigma = 1;
+  S mean = 0,    ///< Mean.
+      sigma = 1; ///< Standard deviation.
 
   Normal() = default;
+  /// A distribution with the given mean and standard deviation.
   Normal(S mean_, S sigma_) : mean(mean_), sigma(sigma_) {
     using std::isfinite;
     require(isfinite(mean) && is_valid_scale(sigma, mean),

@@ -21,6 +21,7 @@ template <Real S> struct Power {
   S n = 1; ///< Exponent.
 
   Power() = default;
+  /// A density with exponent n.
   explicit Power(S n_) : n(n_) {
     using std::isfinite;
     require(isfinite(n) && n >= 0, "Power: exponent {} must be finite and >= 0", static_cast<double>(n));

@@ -36,6 +36,7 @@ struct Product {
   }
 };
 
+/// Deduces the types of the factors.
 template <class A, class B> Product(A, B) -> Product<A, B>;
 
 /// The 2-D tent.

@@ -26,6 +26,7 @@ template <Warp W> struct Rotated {
   W warp;              ///< Distribution about +z.
   Frame<Scalar> frame; ///< Orthonormal frame with z axis n.
 
+  /// Rotates a warp about +z to the axis n.
   Rotated(W warp_, const Vec3<Scalar>& n) : warp(std::move(warp_)) {
     using std::abs;
     const Scalar square = n.squaredNorm();

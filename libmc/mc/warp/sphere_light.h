@@ -24,6 +24,7 @@ template <Real S> class SphereLight {
   using Scalar = S;
   using Domain = Cap<S>;
 
+  /// A sphere with its centre relative to the viewer.
   SphereLight(const Vec3<S>& center, S radius) : SphereLight(center, radius, length(center)) {}
 
   Domain domain() const { return cone_.domain(); }

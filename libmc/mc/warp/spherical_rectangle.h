@@ -23,6 +23,7 @@ template <Real S> class SphericalRectangle {
   using Scalar = S;
   using Domain = ParallelogramPatch<S>;
 
+  /// A parallelogram with its corner relative to the viewer.
   SphericalRectangle(const Vec3<S>& corner, const Vec3<S>& edge1, const Vec3<S>& edge2)
       : domain_(corner, edge1, edge2), first_(wide(corner) + wide(edge1), -wide(edge1), wide(edge2)),
         second_(wide(corner) + wide(edge1) + wide(edge2), -(wide(edge1) + wide(edge2)), -wide(edge1)),

@@ -146,6 +146,7 @@ template <Real S> class SphericalTriangle {
   using Scalar = S;
   using Domain = TrianglePatch<S>;
 
+  /// A triangle with corner a relative to the viewer, and its edges from a.
   SphericalTriangle(const Vec3<S>& a, const Vec3<S>& ab, const Vec3<S>& ac)
       : domain_(a, ab, ac), map_(cast_point<W>(a), cast_point<W>(ab), cast_point<W>(ac)) {}
 

@@ -16,9 +16,11 @@ template <Real S> struct Tent {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S center = 0, radius = 1;
+  S center = 0,   ///< Centre.
+      radius = 1; ///< Distance from the centre to the ends.
 
   Tent() = default;
+  /// A tent about `center` with the given radius.
   Tent(S center_, S radius_) : center(center_), radius(radius_) {
     using std::isfinite;
     require(

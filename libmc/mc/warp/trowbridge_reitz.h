@@ -12,8 +12,10 @@ namespace mc {
 /// The microsurface as a unit sphere stretched by diag(alpha_x, alpha_y, 1).
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3].
 template <Real S> struct TrowbridgeReitzSurface {
-  S alpha_x = 1, alpha_y = 1; ///< Roughness along x and y.
+  S alpha_x = 1,   ///< Roughness along x.
+      alpha_y = 1; ///< Roughness along y.
 
+  /// A surface of roughness ax along x and ay along y.
   TrowbridgeReitzSurface(S ax, S ay) : alpha_x(ax), alpha_y(ay) {
     require(ax >= S(1e-6) && ax <= S(1e3) && ay >= S(1e-6) && ay <= S(1e3),
             "TrowbridgeReitz: alpha_x = {}, alpha_y = {}: both must lie in [1e-6, 1000]", static_cast<double>(ax),
@@ -43,7 +45,9 @@ template <Real S> class TrowbridgeReitzNormals {
   using Scalar = S;
   using Domain = Hemisphere<S>;
 
+  /// Normals of an isotropic surface of roughness alpha.
   explicit TrowbridgeReitzNormals(S alpha) : surface_(alpha, alpha) {}
+  /// Normals of a surface of roughness alpha_x along x and alpha_y along y.
   TrowbridgeReitzNormals(S alpha_x, S alpha_y) : surface_(alpha_x, alpha_y) {}
 
   Domain domain() const { return {}; }
@@ -71,7 +75,9 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
   using Scalar = S;
   using Domain = Hemisphere<S>;
 
+  /// Visible normals of an isotropic surface of roughness alpha.
   TrowbridgeReitzVisibleNormals(const Vec3<S>& wo, S alpha) : TrowbridgeReitzVisibleNormals(wo, alpha, alpha) {}
+  /// Visible normals of a surface of roughness alpha_x along x and alpha_y along y.
   TrowbridgeReitzVisibleNormals(const Vec3<S>& wo, S alpha_x, S alpha_y)
       : TrowbridgeReitzVisibleNormals(TrowbridgeReitzSurface<S>(alpha_x, alpha_y), wo) {
     require(wo.z() >= 0 && is_unit(wo),

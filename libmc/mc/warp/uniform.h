@@ -17,9 +17,11 @@ template <Real S> struct UniformInterval {
   using Scalar = S;
   using Domain = Interval<S>;
 
+  /// The interval.
   Domain interval;
 
   UniformInterval() = default;
+  /// An interval with the given ends.
   UniformInterval(S lo, S hi) : interval(lo, hi) {
     require(is_valid_scale(S(hi - lo)),
             "UniformInterval: [{}, {}] has a width that is denormal or next to the largest number",
@@ -44,9 +46,11 @@ template <Real S, int N> struct UniformBox {
   using Domain = Box<S, N>;
   using Point = Vec<S, N>;
 
+  /// The box.
   Domain box;
 
   UniformBox() = default;
+  /// A box with the given corners.
   UniformBox(const Point& lo, const Point& hi) : box(lo, hi) {
     for (Eigen::Index i = 0; i < lo.size(); ++i)
       require(is_valid_scale(S(hi[i] - lo[i])), "UniformBox: side {} is denormal or next to the largest number",

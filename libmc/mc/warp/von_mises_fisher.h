@@ -22,6 +22,7 @@ template <Real S> class VonMisesFisher {
   using Scalar = S;
   using Domain = Sphere<S>;
 
+  /// A distribution with concentration kappa.
   explicit VonMisesFisher(S kappa) : kappa_(kappa) {
     using std::exp, std::expm1, std::isfinite, std::max;
     using Limits = std::numeric_limits<S>;
@@ -66,6 +67,7 @@ template <Real S> class VonMisesFisher {
     const S u = mass_ > 0 ? S(-S(expm1(S(-kappa_ * t))) / mass_) : S(t / 2);
     return {clamp_to_unit(u), azimuth_turns<S>(w.x(), w.y())};
   }
+  /// Concentration.
   S kappa() const { return kappa_; }
   template <Real T> VonMisesFisher<T> cast() const { return VonMisesFisher<T>(T(kappa_)); }
 

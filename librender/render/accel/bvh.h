@@ -19,6 +19,7 @@ class Bvh {
   Bvh();
   /// Builds the trees. Hit::shape is an index into `shapes`.
   explicit Bvh(std::span<const Shape* const> shapes);
+  /// Builds the trees. Hit::shape is an index into `shapes`.
   explicit Bvh(std::span<const Shape> shapes);
 
   /// The nearest hit with 0 < t < t_max, if there is one.

@@ -14,13 +14,16 @@ static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock
 
 /// One tree per block type.
 template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
+  /// Trees without primitives.
   BlockTrees() = default;
+  /// Builds one tree per block type.
   explicit BlockTrees(std::span<const Shape* const> shapes)
       : std::tuple<BlockTree<Block>...>(BlockTree<Block>(shapes)...) {}
 };
 
 /// The trees of a Bvh, one per block type, in the order in which a ray tests them.
 struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock> {
+  /// Constructors of BlockTrees.
   using BlockTrees::BlockTrees;
 
   /// Nearest hit of the ray, stored in hit; with any = true, only whether there is a hit.
@@ -45,6 +48,9 @@ struct Bvh::Trace {
 
 /// Instances of Trace: `native` if the library is built for this machine only, else the three from which the library
 /// selects at load time. All give the same bits.
-extern const Bvh::Trace trace_native, trace_baseline, trace_avx2, trace_avx512;
+extern const Bvh::Trace trace_native, ///< For the instruction set of this machine.
+    trace_baseline,                   ///< For the baseline instruction set.
+    trace_avx2,                       ///< For AVX2, FMA, BMI and BMI2.
+    trace_avx512;                     ///< For AVX-512.
 
 } // namespace render

@@ -10,7 +10,8 @@ namespace render {
 /// An axis-aligned box; empty until something is added.
 struct Bounds {
   /// Smallest and largest coordinates.
-  Vec3 lo = Vec3::Constant(mc::infinity<Float>), hi = Vec3::Constant(-mc::infinity<Float>);
+  Vec3 lo = Vec3::Constant(mc::infinity<Float>), ///< Smallest coordinates.
+      hi = Vec3::Constant(-mc::infinity<Float>); ///< Largest coordinates.
 
   /// Extends the box to contain p.
   void add(const Vec3& p) {

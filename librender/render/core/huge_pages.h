@@ -14,9 +14,11 @@ namespace render {
 /// An allocator that requests pages of 2 MB for arrays that span many of them. Traversal of a large tree by incoherent
 /// rays then causes fewer TLB misses than with pages of 4 KB. Smaller arrays, and other systems, use the default pages.
 template <class T> struct HugePageAllocator {
+  /// Type of the elements.
   using value_type = T;
 
   HugePageAllocator() = default;
+  /// Conversion to another element type; allocators have no state.
   template <class U> HugePageAllocator(const HugePageAllocator<U>&) {}
 
   /// Memory for n elements.
@@ -37,6 +39,7 @@ template <class T> struct HugePageAllocator {
   /// Frees the memory of n elements.
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
 
+  /// All allocators are equal.
   bool operator==(const HugePageAllocator&) const { return true; }
 
  private:

@@ -7,7 +7,8 @@ namespace render {
 
 /// Points o + t d for 0 < t < t_max. d is a unit vector for rays from a camera or surface.
 struct Ray {
-  Vec3 o, d;                         ///< Origin and direction.
+  Vec3 o,                            ///< Origin.
+      d;                             ///< Direction.
   Float t_max = mc::infinity<Float>; ///< Upper limit of t.
 
   /// The point at parameter t.

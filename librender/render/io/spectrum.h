@@ -12,7 +12,8 @@ Eigen::Array3d xyz_to_rgb(const Vec3d& xyz);
 
 /// A value at a wavelength [nm].
 struct SpectralSample {
-  double wavelength, value; ///< Wavelength [nm], and the value there.
+  double wavelength, ///< Wavelength [nm].
+      value;         ///< Value at this wavelength.
 };
 
 /// Illuminant of reflectance spectra: equal energy at every wavelength, or daylight D65.

@@ -12,10 +12,11 @@ namespace render {
 
 /// Render settings that a scene file contains.
 struct RenderDefaults {
-  int width = 256, height = 256; ///< Size of the image [pixels].
-  int spp = 64;                  ///< Samples per pixel.
-  int max_depth = -1;            ///< Longest path in edges; -1: no limit.
-  Aov aov = Aov::radiance;       ///< Output of the integrator.
+  int width = 256,         ///< Width of the image [pixels].
+      height = 256;        ///< Height of the image [pixels].
+  int spp = 64;            ///< Samples per pixel.
+  int max_depth = -1;      ///< Longest path in edges; -1: no limit.
+  Aov aov = Aov::radiance; ///< Output of the integrator.
 };
 
 /// A scene as read from a file.

@@ -16,9 +16,10 @@ namespace render {
 struct Hit {
   /// Ray parameter. In double, so that hits on large triangles and far spheres lie on the surface.
   double t = 0;
-  int shape = 0;        ///< Index into the shapes of the scene.
-  int prim = 0;         ///< Triangle of a mesh; 0 for a sphere.
-  Float b1 = 0, b2 = 0; ///< Barycentric weights of vertices 1 and 2 (mesh only).
+  int shape = 0; ///< Index into the shapes of the scene.
+  int prim = 0;  ///< Triangle of a mesh; 0 for a sphere.
+  Float b1 = 0,  ///< Barycentric weight of vertex 1 (mesh only).
+      b2 = 0;    ///< Barycentric weight of vertex 2 (mesh only).
 };
 
 /// A point on a surface with an error bound.

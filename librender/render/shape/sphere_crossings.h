@@ -7,9 +7,12 @@ namespace render {
 
 /// A line o + t d in double, with |d|^2 and its inverse.
 struct Line {
-  Vec3d o, d;
-  double d2, inverse_d2;
+  Vec3d o,        ///< Origin.
+      d;          ///< Direction, not necessarily unit.
+  double d2,      ///< |d|^2.
+      inverse_d2; ///< 1 / |d|^2.
 
+  /// A line through `origin` along `direction`.
   Line(const Vec3d& origin, const Vec3d& direction)
       : o(origin), d(direction), d2(d.squaredNorm()), inverse_d2(1 / d2) {}
 };
@@ -39,7 +42,10 @@ SphereQuadratic<T> sphere_quadratic(const T& ox, const T& oy, const T& oz, const
 }
 
 /// Parameters t0 <= t1 of the crossings. A NaN is no crossing.
-template <class T> struct SphereCrossings { T t0, t1; };
+template <class T> struct SphereCrossings {
+  T t0,   ///< Parameter of the first crossing.
+      t1; ///< Parameter of the second crossing.
+};
 
 /// The crossings of a line for which pass.crosses() holds.
 template <class T> SphereCrossings<T> sphere_crossings(const SphereQuadratic<T>& pass, const Line& line) {

@@ -29,7 +29,8 @@ struct Texels {
                                 (*bad)[1], (*bad)[2], wrong));
   }
 
-  int width, height;            ///< Size in texels.
+  int width,                    ///< Number of columns.
+      height;                   ///< Number of rows.
   std::vector<Spectrum> values; ///< Values in row order.
   std::string origin;           ///< " of 'FILE'" for error messages; empty if there is no file.
 };

@@ -32,8 +32,8 @@ TYPED_TEST(HenyeyGreensteinOver, IsNotClampedNearOne) {
   }
 }
 
-// The mean cosine is g, also beyond 0.99, where some renderers clamp g. Averages over strata of u, so the error is that
-// of a quadrature rule.
+// The mean cosine is g, also beyond 0.99, where some renderers clamp g. Averages over strata of u, as a quadrature
+// rule does.
 TEST(HenyeyGreenstein, MeanCosineIsG) {
   for (const double g : {-0.9999, -0.3, 0.9, 0.999, 0.9999}) {
     const HenyeyGreenstein<double> warp(g);

@@ -183,7 +183,7 @@ TEST(PeerDefects, BilinearWithZeroEdgesAndExtremeWeights) {
   expect_good(Bilinear<float>(1e30f, 1e30f, 2e30f, 3e30f), {0.3f, 0.4f});
   expect_good(Bilinear<float>(1e-25f, 2e-25f, 1e-25f, 3e-25f), {0.3f, 0.4f});
   for (const float w : {1.0001f, 1.0003f}) expect_good(Bilinear<float>(1, w, 1, w), {0.3f, 0.4f});
-  EXPECT_THROW(Bilinear<float>(0, 0, 0, 0), Error); // NaN in those renderers
+  EXPECT_THROW(Bilinear<float>(0, 0, 0, 0), Error); // NaN in other renderers
   EXPECT_THROW(Linear<float>(0, 0), Error);
 }
 

@@ -26,8 +26,8 @@ TEST(Shape, AnswersAsItsMember) {
 // Compares areas and solid angles with statistics of samples. Lights are selected by projected_solid_angle_bound, so
 // samples estimate the projected solid angle of 400 shapes. Tolerance: five standard errors plus a thousandth, because
 // just inside a sphere nearly all samples agree. Rays find the points of sample_area on the shape, and parts of equal
-// area get equal counts. With 16,000 points in 16 parts, each part gets 1000 within four standard deviations of 31; five
-// for the largest.
+// area get equal counts. With 16,000 points in 16 parts, each part gets 1000 within four standard deviations of 31;
+// five for the largest.
 TEST(Shape, AreaIsSampledAlike) {
   mc::Pcg random(12);
   const auto counted = [&](const Shape& shape, auto&& part) {

@@ -14,7 +14,8 @@ namespace render {
 /// A mesh as stored in a file. Normals and texture coordinates are one per position, or none. A triangle is flat if the
 /// normals at all its corners are 0.
 struct MeshFile {
-  std::vector<Vec3d> positions, normals;               ///< Positions, and a normal for each of them or none.
+  std::vector<Vec3d> positions,                        ///< Positions of the vertices.
+      normals;                                         ///< Normals, one per position or none.
   std::vector<mc::Vec2<float>> uvs;                    ///< Texture coordinates, one per position or none.
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< Indices of the vertices of each triangle.
   std::string missing_uv_reason; ///< Why there are no texture coordinates: "the face of line 7 has none".
