@@ -16,17 +16,17 @@ struct SubjectOptions {
   /// Probability that a correct subject fails, over all its statistical tests. With the default, a suite of a hundred
   /// correct distributions passes nine times in ten.
   double alpha = 0.001;
-  std::size_t max_evaluations =
-      12'000'000;        ///< largest number of evaluations of the density; expected counts use at most a third
+  /// Largest number of evaluations of the density. The expected counts use at most a third of it.
+  std::size_t max_evaluations = 12'000'000;
   bool evidence = false; ///< keep all counts and intermediate p-values, for pages and plots
   /// Accept faults of measure zero: sample may fail at single values of u, and pdf may be 0 or infinite on boundaries
   /// of the domain.
   bool open_interval = false;
-  const std::function<void()>* before_draws =
-      nullptr; ///< called before each batch of draws; an exception that it throws ends the check
+  /// Called before each batch of draws; an exception that it throws ends the check.
+  const std::function<void()>* before_draws = nullptr;
 };
 
-/// Returns the statistical part of LawOptions or BsdfOptions. Those structs repeat its members, so that callers can
+/// Returns the statistical part of LawOptions or BsdfOptions. Both structs repeat its members, so that callers can
 /// write {.samples = n}.
 template <class Options> SubjectOptions statistics(const Options& o) {
   return {o.samples, o.seed, o.alpha, o.max_evaluations, o.evidence, o.open_interval, o.before_draws};

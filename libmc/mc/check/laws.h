@@ -12,9 +12,9 @@ namespace mc {
 ///   boundary          : sample is finite and in the domain, and pdf is positive and finite, at critical values of u.
 ///                       These are all combinations of the ends, quarters and middle of [0,1) with their neighbours.
 ///                       find_breaks adds the neighbours of the branches along each axis. Faults of measure zero get a
-///                       Check of their own (Fault::measure_zero): u with a coordinate of exactly 0; single u with
-///                       density 0 but correct neighbours; samples rounded onto an edge where the density is 0 or
-///                       infinite, but not beside it.
+///                       Check of their own (Fault::measure_zero). Examples are u with a coordinate of exactly 0, and
+///                       single u with density 0 but correct neighbours. Samples rounded onto an edge of infinite or
+///                       zero density count too, if the density next to it is correct.
 ///   determinism       : equal u give equal points; equal points give equal pdf and invert, bit for bit. Repeated calls
 ///                       follow at once and after one, two and three other samples. Different u give different points.
 ///   batch_consistency : samples and densities of a batch equal the results of single calls, up to rounding (needs

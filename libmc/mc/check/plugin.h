@@ -9,6 +9,8 @@
 ///   static const mc_sampler samplers[] = {{.name = "Mine", .domain = MC_DISK, .sample = sample, .pdf = pdf}};
 ///   MC_PLUGIN(samplers)
 ///
+/// Then compile and check the plugin.
+///
 ///   cc -O2 -fPIC -shared mine.c -o mine.so && carlo validate --plugin ./mine.so
 ///
 /// Contract of every function below:
@@ -29,7 +31,7 @@ extern "C" {
 
 /// Version of the structs below. carlo accepts plugins of this version and of every earlier version, and rejects later
 /// ones.
-///   2 : adds MC_PRODUCT, outcomes beside a density, breaks, open intervals and integrands.
+///   2 : adds MC_PRODUCT, outcomes in addition to a density, breaks, open intervals and integrands.
 #define MC_PLUGIN_ABI 2
 
 /// The domain of the points x, and the measure of the density.
@@ -40,8 +42,8 @@ enum mc_domain {
   MC_TRIANGLE = 4,   ///< barycentric: x[0] >= 0, x[1] >= 0, x[0] + x[1] <= 1, of area 1/2; 1/area
   MC_SPHERE = 5,     ///< unit vectors x[0..2]; 1/steradian. Lobes narrower than 1e-6 rad are resolved about +z only
   MC_HEMISPHERE = 6, ///< unit vectors with x[2] >= 0; 1/steradian
-  MC_DISCRETE =
-      7, ///< x[0] = 0, 1, ..., hi[0] - 1, at most 2^24 outcomes; pdf is the probability. No invert, eval or weight
+  /// x[0] = 0, 1, ..., hi[0] - 1, at most 2^24 outcomes; pdf is the probability. No invert, eval or weight.
+  MC_DISCRETE = 7,
   /// The product of the factors in `parts`, in the syntax of --domain: "ball"; "annulus=0.5"; "x=-inf:inf,y=-inf:inf"
   /// is the plane; "sphere,t=0:1" is a product. At most three dimensions and four coordinates.
   MC_PRODUCT = 8
@@ -97,7 +99,7 @@ typedef struct mc_sampler {
 
   /* Since version 2. */
   const char* parts;     ///< factors of MC_PRODUCT
-  int32_t outcomes;      ///< number of discrete outcomes beside the density, at most 1000
+  int32_t outcomes;      ///< number of discrete outcomes in addition to the density, at most 1000
   int32_t open_interval; ///< 1: sample requires u in (0,1)^uniforms, without 0
   /// With outcomes: returns the probability of outcome k. The pdf integrates to 1 minus the sum of these probabilities.
   double (*probability)(const void* self, int32_t k);

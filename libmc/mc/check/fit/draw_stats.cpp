@@ -49,7 +49,7 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
 // Rounding moves very few samples onto a zero of the density, but many onto a pole.
 constexpr std::uint64_t most_rounded = 3;
 
-// Returns the density beside a point that has none itself. Once violations exceed the tolerance the distribution is
+// Returns the density next to a point that has none itself. Once violations exceed the tolerance the distribution is
 // broken, and the search stops: its density may be slow.
 std::optional<double> rounded_from(const Subject& s, const Subject::Draw& d, const DrawStats& stats) {
   if (d.pdf_positive || d.kind != Kind::point || stats.zero_pdf.count + stats.non_finite_pdf.count > most_rounded)

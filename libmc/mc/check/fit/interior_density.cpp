@@ -20,7 +20,7 @@ Subject::Coordinates moved_inside(Subject::Coordinates v, int dim, double step =
 bool is_deep(double v) { return v > 0 && v < 0x1p-500; }
 
 // A pole at an end other than 0 is infinite at points of the chart that are rounded onto it. If the density is infinite
-// beside such a point too, the search stops: the density may be slow.
+// next to such a point too, the search stops: the density may be slow.
 void ask_beside_poles(const Subject& s, std::span<const Subject::Coordinates> v, std::span<double> densities) {
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (densities[i] != std::numeric_limits<double>::infinity()) continue;

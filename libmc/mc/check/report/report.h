@@ -23,7 +23,7 @@ std::string_view name(Verdict v);
 /// The likely cause of a failed check.
 enum class Fault {
   none,             ///< no fault
-  boundary,         ///< sample or pdf is wrong at the ends of [0,1) or beside a branch
+  boundary,         ///< sample or pdf is wrong at the ends of [0,1) or next to a branch
   measure_zero,     ///< only single values of u or single points are wrong
   nondeterministic, ///< equal arguments give different results
   not_finite,       ///< a sample, pdf or f is infinite or NaN

@@ -26,7 +26,7 @@ struct Piece {
   NearPoints points;
 };
 
-// Returns the near points. The densities of points beside the layer are scaled by the ratio of the sample densities
+// Returns the near points. The densities of points next to the layer are scaled by the ratio of the sample densities
 // inside and around the layer.
 std::vector<NearPoint> near_points(const Pilot& pilot, const IntervalQuery& query) {
   std::vector<NearPoint> points;

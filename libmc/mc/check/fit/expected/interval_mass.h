@@ -15,7 +15,7 @@ namespace mc {
 struct IntervalQuery {
   std::size_t axis = 0;
   double lo = 0, hi = 1;
-  /// Indices of pilot points inside; if these are few, also of points beside the layer.
+  /// Indices of pilot points inside; if these are few, also of points next to the layer.
   std::vector<std::uint32_t> near;
   double mass = 0; ///< mass of the layer according to the samples
   /// Whether no sample lies in the layer; an integral that is too small then only favours the samples.

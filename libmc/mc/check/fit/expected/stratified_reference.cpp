@@ -99,7 +99,7 @@ struct StratifiedReference::Builder {
     return claimed > lobe_over_pilot * static_cast<double>(points.size() + 1) ? &top : nullptr;
   }
 
-  // Returns the axis of the box along which a lobe is narrowest, where the density beside its point falls most.
+  // Returns the axis of the box along which a lobe is narrowest, where the density next to its point falls most.
   std::size_t narrowest(const Point& lobe, const UnitBox& box, std::size_t first) {
     const auto dim = static_cast<std::size_t>(subject.dim);
     std::size_t axis = first;

@@ -113,7 +113,7 @@ bool find_gap(const Subject& s, const std::vector<double>& v, GapPosition positi
   return true;
 }
 
-// Whether the points beside a gap are rounded to steps of the width of the gap.
+// Whether the points next to a gap are rounded to steps of the width of the gap.
 bool is_rounding(const Subject& s, const Pilot& pilot, const AxisInterval& gap) {
   const double lo = gap.box.lo[gap.axis], hi = gap.box.hi[gap.axis];
   double step = 0;
@@ -122,7 +122,7 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const AxisInterval& gap) 
   return hi - lo <= min_resolved_steps * step;
 }
 
-// Returns the interval with the pilot points inside and beside it, and with its mass for a density constant across
+// Returns the interval with the pilot points inside and next to it, and with its mass for a density constant across
 // these points.
 IntervalQuery query_around(const Pilot& pilot, const AxisInterval& interval) {
   IntervalQuery query{interval.axis,

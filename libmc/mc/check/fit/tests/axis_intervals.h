@@ -13,7 +13,7 @@ namespace mc {
 /// An interval between two values of one coordinate.
 ///   atom : a few units in the last place wide, at the most frequent value. A clamp or a fallback value creates an atom
 ///          that is much smaller than a cell.
-///   gap  : an empty interval that is wide compared with the spacing of the samples beside it. A wrong constant or a
+///   gap  : an empty interval that is wide compared with the spacing of the samples next to it. A wrong constant or a
 ///          clamp leaves such a hole.
 struct AxisInterval {
   enum class Kind : std::uint8_t { atom, gap } kind = Kind::atom;
@@ -28,7 +28,7 @@ struct AxisInterval {
 
 /// Returns the candidate intervals of each axis. Atoms: the most frequent value up to rounding, if at least three
 /// samples share it, and the smallest and the largest value, if at least two samples share it. Gaps: the widest gap
-/// inside and the gaps at both ends, measured in spacings of the samples beside them. `sorted` contains the sorted
+/// inside and the gaps at both ends, measured in spacings of the samples next to them. `sorted` contains the sorted
 /// coordinates of the samples for each axis.
 std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot,
                                               const std::array<std::vector<double>, 3>& sorted);
