@@ -35,7 +35,7 @@ struct Sample {
   bool delta, transmission;
 };
 
-// Half Lambert, half perfect mirror when asked for.
+// A mixture of a Lambertian lobe of albedo 0.5 and a perfect mirror that is sampled with probability `mirror`.
 struct Coated {
   Bug bug = Bug::none;
   double mirror = 0;
@@ -94,7 +94,7 @@ TEST(BsdfLaws, SupportEnergyAndDeltaReciprocity_Fail) {
 }
 
 TEST(BsdfLaws, PdfZeroWhereFIsPositive_Fails) {
-  // Half of what it reflects is never sampled.
+  // Half of the reflected light is never sampled.
   struct Half : Coated {
     double pdf(const V& wo, const V& wi) const { return wi.x() > 0 ? 2 * Coated::pdf(wo, wi) : 0; }
     std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>& u) const {
@@ -108,7 +108,7 @@ TEST(BsdfLaws, PdfZeroWhereFIsPositive_Fails) {
   EXPECT_EQ(r.fault(), Fault::support) << r.to_string();
 }
 
-// Four wavelengths; what is wrong is so in the last one alone.
+// Four wavelengths; faults affect only the last one.
 struct FourWavelengths {
   using Spectrum = Eigen::Array4d;
   double last = 0.5, mirror_back = 0.2;
@@ -158,7 +158,7 @@ TEST(BsdfLaws, Witness_NamesRandomNumbers) {
               testing::ContainsRegex("fail: f is 0.16.*, should be 0.159.*, at u = \\(0"));
 }
 
-// Glass of index 1.5 by Schlick's weights, with or without the squared index on refraction.
+// Glass of index 1.5 with Schlick's weights, with or without the squared index on refraction.
 struct Glass {
   bool squared = true;
   struct Sample {
@@ -189,7 +189,7 @@ TEST(BsdfLaws, Refraction_ReciprocityUsesSquaredIndex) {
   }
 }
 
-// A phase function: no cosine, weights instead of values, one channel.
+// A phase function: no cosine, a weight instead of f, one channel.
 struct Phase {
   double bug = 1;
   struct Sample {

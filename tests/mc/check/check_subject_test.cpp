@@ -23,8 +23,8 @@ using mc::Fault, mc::Pcg, mc::Verdict;
 V cosine(Pcg& r) { return mc::CosineHemisphere<double>{}.sample(r.point<double, 2>()); }
 double cosine_pdf(const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; }
 
-// 300 seeds at alpha = 10 %, cheap sizes. KS on cells is conservative, so the rate may lie below 10 %; above it is a
-// fault: Binomial(300, 0.1) stays below 48 with probability 0.9995.
+// 300 seeds at alpha = 10 %. KS on cells is conservative, so only the upper bound is strict: Binomial(300, 0.1) stays
+// below 48 with probability 0.9995.
 TEST(CheckSubject, CorrectDistribution_RejectedAtMostAtAlpha) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   int rejected = 0;
@@ -37,7 +37,8 @@ TEST(CheckSubject, CorrectDistribution_RejectedAtMostAtAlpha) {
   EXPECT_GE(rejected, 8);
 }
 
-// A normal lobe of unit vectors, its deviation 15 steps of a float: cells as narrow as a step would count the steps.
+// A normal lobe of unit vectors with a standard deviation of 15 float steps. Cells as narrow as a step would count the
+// steps.
 TEST(CheckSubject, LobeOfFewFloatSteps_Passes) {
   using F = mc::Vec3<float>;
   const mc::Normal<double> offset(0, 9e-7);
@@ -57,8 +58,8 @@ TEST(CheckSubject, LobeOfFewFloatSteps_Passes) {
   }
 }
 
-// A float table whose one bright cell, of 260 steps, holds half of a million samples: a step at its edge holds more
-// than what a layer beside it may be off.
+// A float table with one bright cell of 260 steps that contains half of a million samples. One step at its edge
+// contains more samples than the tolerance of a neighbouring bin.
 TEST(CheckSubject, BrightCellOfFewFloatSteps_Passes) {
   std::vector<double> weights(64'586, 1);
   weights[54'671] = 64'586;
@@ -72,15 +73,15 @@ TEST(CheckSubject, BrightCellOfFewFloatSteps_Passes) {
   }
 }
 
-// x^(a - 1) on (0, 1): of a = .12 a fortieth lies below 2^-44, a thousandth below 2^-83 and a millionth below 2^-166.
-// Between the end and the first number beside 1 there is room for all of that.
+// x^(a - 1) on (0, 1). For a = .12, a fortieth of the mass lies below 2^-44, a thousandth below 2^-83 and a millionth
+// below 2^-166. The chart must resolve these coordinates near 0.
 TEST(CheckSubject, DeepSingularity_Passes) {
   for (const double a : {0.12, 0.3}) {
     const auto sampler = [a](Pcg& r) { return std::pow(r.uniform<double>(), 1 / a); };
     const auto pdf = [a](double x) { return a * std::pow(x, a - 1); };
     const mc::Report right = check_subject(make_subject("power", mc::Interval<double>(0, 1), sampler, pdf), {});
     EXPECT_EQ(right.verdict(), Verdict::pass) << right.to_string();
-    // All below a place that a thousandth lies below, at the place.
+    // Moves the lowest thousandth of the samples up to `place`.
     const double place = std::pow(1e-3, 1 / a);
     const auto cut = [=](Pcg& r) { return std::max(sampler(r), place * (1 + r.uniform<double>())); };
     const mc::Report wrong = check_subject(make_subject("cut power", mc::Interval<double>(0, 1), cut, pdf), {});
@@ -88,7 +89,7 @@ TEST(CheckSubject, DeepSingularity_Passes) {
   }
 }
 
-// 1 / x from 1e-250 on: two fifths of the samples lie below 2^-500.
+// 1 / x above 1e-250: two fifths of the samples lie below 2^-500.
 TEST(CheckSubject, LogUniformOverAllDoubles_Passes) {
   const double depth = 250 * std::log(10.0);
   const auto check = [depth](double exponent) {
@@ -103,7 +104,7 @@ TEST(CheckSubject, LogUniformOverAllDoubles_Passes) {
   EXPECT_EQ(check(1.05).verdict(), Verdict::fail);
 }
 
-// Beside an end that is not 0 the points of the chart are rounded onto it, where the density is infinite.
+// At an end other than 0, points of the chart are rounded onto the end, where the density is infinite.
 TEST(CheckSubject, SingularityAtNonzeroEnd_Passes) {
   for (const double lo : {0.0833, 24.7, -670.0}) {
     const mc::Interval<double> interval(lo, lo + 3);
@@ -118,7 +119,7 @@ TEST(CheckSubject, SingularityAtNonzeroEnd_Passes) {
 }
 
 TEST(CheckSubject, SharpLobe_IsTestedAsStrictlyAsCosine) {
-  // 1 - z exponential with mean 1e-10: a lobe of 1e-5 rad.
+  // 1 - z is exponential with mean 1e-10: a lobe of 1e-5 rad.
   const double scale = 1e-10;
   const auto sampler = [scale](Pcg& r) {
     const double t = -scale * std::log1p(-r.uniform<double>()), phi = 2 * mc::pi<double> * r.uniform<double>();
@@ -146,7 +147,7 @@ TEST(CheckSubject, FailureRate_IsTestedAgainstMissingMass) {
   EXPECT_EQ(wrong.fault(), Fault::failure) << wrong.to_string();
 }
 
-// A density that oscillates far below the size of any cell, of which the samples know nothing.
+// A density that oscillates at scales far below the cells, which the samples do not follow.
 TEST(CheckSubject, StructureFinerThanCells_Fails) {
   const auto pdf = [](double x) { return 1 + std::sin(2e7 * x) * (std::fmod(x * 1e8, 1.0) < 0.5 ? 1.0 : 0.7); };
   const mc::Subject s = make_subject(
@@ -166,9 +167,9 @@ TEST(CheckSubject, Report_ContainsWitnesses) {
   EXPECT_THAT(r.to_string(), testing::ContainsRegex("domain, at u = .0[^)]*., x = "));
 }
 
-// An azimuth of 2 * 3.14 u leaves a gap at the end of the turn, a clamp one at each end of u, a skipped interval one
-// inside: too narrow for any cell, each seen empty by the pilot and then by the samples. A right density whose support
-//         has such gaps passes.
+// An azimuth of 2 * 3.14 u leaves a gap at the end of the turn. A clamp leaves a gap at an end of u, a skipped interval
+// leaves a gap inside. The gaps are narrower than cells, and both the pilot and the samples leave them empty. A correct
+// density with the same support passes.
 TEST(CheckSubject, GapsInsideAndAtEnds_Fail) {
   const mc::Interval<double> unit(0, 1);
   const auto gap = [&](double lo, double hi, bool claimed) {
@@ -190,12 +191,12 @@ TEST(CheckSubject, GapsInsideAndAtEnds_Fail) {
         std::find_if(wrong.checks.begin(), wrong.checks.end(), [](const mc::Check& c) { return c.name == "no gaps"; });
     ASSERT_NE(check, wrong.checks.end());
     EXPECT_EQ(check->verdict, Verdict::fail) << wrong.to_string();
-    EXPECT_LE(check->statistic, 20) << "of 200 expected"; // a few stand at the edges that the pilot saw
+    EXPECT_LE(check->statistic, 20) << "of 200 expected"; // some samples lie at the edges that the pilot determined
     EXPECT_TRUE(right.passed()) << right.to_string();
   }
 }
 
-// 800 steps of a float hold 95 of a million samples.
+// 800 float steps contain 95 of a million expected samples.
 TEST(CheckSubject, GapOfFewHundredFloatSteps_Fails) {
   const auto skip = [](float width) {
     const auto sampler = [width](Pcg& r) {
@@ -208,8 +209,8 @@ TEST(CheckSubject, GapOfFewHundredFloatSteps_Fails) {
   EXPECT_EQ(skip(800 * 0x1p-23f).verdict(), Verdict::fail);
 }
 
-// 23 of 100000 samples are missing at each end of a normal cut at 3.5 sigma, as many as no right sampler misses. The
-// density falls towards the ends, so that the samples beside them speak of more.
+// A normal cut at 3.5 sigma lacks 23 of 100000 samples at each end, which chance does not explain. The density falls
+// towards the ends, so an extrapolation of the neighbouring samples would expect more.
 TEST(CheckSubject, TruncatedTail_IsGap) {
   const mc::Normal<double> normal;
   const auto cut_at = [&](double most) {
@@ -294,7 +295,8 @@ TEST(CheckSubject, PlotData_HasAllCountsAndPValues) {
   EXPECT_EQ(r.evidence->p_after[5].samples, 32768u);
   EXPECT_EQ(r.evidence->p_after.back().samples, 50'000u);
   EXPECT_EQ(r.evidence->p_after.back().p, r.p());
-  // What 32768 samples say is what a run of 32768 samples would say, but for the pilot's size and so the cells.
+  // A prefix of 32768 samples gives the p-value of a run of 32768 samples, except for the pilot's size and thus the
+  // cells.
   for (const auto& [samples, p] : r.evidence->p_after) EXPECT_GT(p, 0.001) << samples;
 }
 

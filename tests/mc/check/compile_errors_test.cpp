@@ -1,5 +1,4 @@
-// What the compiler says about programs that hand the checkers something else than a sampler: at most ten lines, one of
-// which says what is missing.
+// Compiler messages for arguments that are not distributions: at most ten lines, one of which names the missing member.
 
 #include <mc/core/file.h>
 

@@ -1,4 +1,4 @@
-// Samplers that nobody here chose: small runs of bench/mc/check/error_rates_bench.cpp with fixed seeds.
+// Random distributions: small runs of bench/mc/check/error_rates_bench.cpp with fixed seeds.
 
 #include <mc/check/random_faults.h>
 #include <mc/check/regression_subjects.h>
@@ -11,7 +11,7 @@ namespace {
 
 using mc::Verdict;
 
-// Each is rejected by chance once in 10000 runs.
+// Each is rejected by chance with probability 1e-4.
 TEST(CheckerErrorRates, RandomCorrectDistributions_Pass) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const mc::Report r =
@@ -20,8 +20,8 @@ TEST(CheckerErrorRates, RandomCorrectDistributions_Pass) {
   }
 }
 
-// Ridges and lobes that lie in thin layers: where the integral of a layer missed them their samples were too many. Each
-// is rejected by chance once in 1000 runs.
+// Ridges and lobes in thin layers. An integral that misses them expects too few samples. Each is rejected by chance
+// with probability 1e-3.
 TEST(CheckerErrorRates, MassInThinLayers_IsNotMissed) {
   for (const std::uint64_t seed : {284u, 3407u, 3768u}) {
     const mc::Report r =
@@ -30,8 +30,8 @@ TEST(CheckerErrorRates, MassInThinLayers_IsNotMissed) {
   }
 }
 
-// Narrow features, and thin layers beside them in which few samples speak. Each is rejected by chance once in 10000
-// runs.
+// Narrow features, with thin layers next to them that contain few samples. Each is rejected by chance with probability
+// 1e-4.
 TEST(CheckerErrorRates, NarrowFeatures_Pass) {
   for (const std::uint64_t seed : {33u, 128u, 178u, 200u, 255u}) {
     const mc::Report r =
@@ -40,7 +40,7 @@ TEST(CheckerErrorRates, NarrowFeatures_Pass) {
   }
 }
 
-// Each is missed at most once in 100: more than 3 of 60 with probability 0.003.
+// Each is missed with probability at most 0.01: more than 3 of 60 with probability 0.003.
 TEST(CheckerErrorRates, FaultsOfStatedSize_AreFound) {
   int missed = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -52,8 +52,9 @@ TEST(CheckerErrorRates, FaultsOfStatedSize_AreFound) {
   EXPECT_LE(missed, 3);
 }
 
-// The right ones are rejected by chance once in 10000 runs each. The wrong ones need a million samples to show; the
-// clamped exponential has 7 equal ones among these and the pilot's, fewer than the 2 that are needed once in 100 seeds.
+// Each correct subject is rejected by chance with probability 1e-4. The wrong subjects need a million samples. The
+// clamped exponential has 7 expected samples at the clamp, including the pilot. It needs 2 equal samples, and has fewer
+// with probability 0.01.
 TEST(CheckerErrorRates, RegressionSubjects_AreJudgedCorrectly) {
   for (const checker_bench::RegressionSubject& f : checker_bench::regression_subjects()) {
     const mc::Report r = check_subject(
@@ -62,7 +63,7 @@ TEST(CheckerErrorRates, RegressionSubjects_AreJudgedCorrectly) {
   }
 }
 
-// What a table says of its breaks is exact.
+// The breaks of a table make the integral exact.
 TEST(CheckerErrorRates, TableWithBreaks_MassIsExact) {
   mc::Pcg random(1);
   std::vector<double> weights(100 * 50);

@@ -22,7 +22,7 @@ mc::LawOptions cheap() {
   return o;
 }
 
-// Density 2 x on [0,1]; `Bug` breaks one law at a time.
+// Density 2 x on [0,1]; each `Bug` breaks one law.
 enum class Bug { none, pdf_scale, invert, edge, precision };
 template <class S, Bug bug> struct Ramp {
   using Scalar = S;
@@ -72,7 +72,7 @@ TEST(Laws, Witness_IsPrintedInFullPrecision) {
               testing::HasSubstr("sample is outside the domain, at u = 0, x = 2"));
 }
 
-// A struct with sample and pdf alone, and the same as a pair of functions.
+// A struct with only sample and pdf.
 struct OwnDisk {
   using Domain = mc::Disk<double>;
   double stretch = 1;
@@ -92,7 +92,7 @@ TEST(Laws, StructOfSampleAndPdf_IsChecked) {
 TEST(Laws, FunctionsOnDomain_AreChecked) {
   const auto sample = [](double u) { return std::sqrt(u); };
   const auto check = [&](auto pdf) { return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, cheap()); };
-  // The density of the square root vanishes at its end, where u = 0 leads.
+  // The density is 0 at the image of u = 0.
   const mc::Report r = check([](double x) { return 2 * x; });
   EXPECT_EQ(r.fault(), Fault::measure_zero) << r.to_string();
   EXPECT_TRUE(mc::check_laws(
@@ -115,7 +115,7 @@ TEST(Laws, OptionalSample_MayFailAtStatedRate) {
             Fault::failure);
 }
 
-// A branch at u = 0.7 that steps out of the domain at one number only.
+// A branch at u = 0.7 that leaves the domain at a single number.
 struct Branching {
   using Domain = mc::Interval<double>;
   bool bug;
@@ -133,7 +133,7 @@ TEST(Laws, NeighboursOfBranch_AreTested) {
               testing::HasSubstr("sample is outside the domain, at u = 0.69999999999999996"));
 }
 
-// The cosine about an axis that is not the chart's: points of the rim are rounded to either side of it.
+// A cosine lobe about an axis other than the chart's: points of the rim are rounded to either side.
 template <class S> struct TiltedCosine {
   using Scalar = S;
   using Domain = mc::Sphere<S>;
@@ -153,7 +153,7 @@ TEST(Laws, PointsRoundedOverDensityEdge_AreMeasureZero) {
     mc::LawOptions o = cheap();
     o.seed = seed;
     o.open_interval = true;
-    o.alpha = 1e-4; // in each of 40
+    o.alpha = 1e-4; // for each of 40 reports
     EXPECT_TRUE(check_laws(TiltedCosine<double>{}, o).passed()) << seed;
     EXPECT_TRUE(check_laws(TiltedCosine<float>{}, o).passed()) << seed;
   }

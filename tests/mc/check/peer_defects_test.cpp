@@ -1,5 +1,5 @@
-// Where the statistics of renderers' test harnesses break, measured on their own code: each defect is named with what
-// it let pass, and must not pass here. Samplers that must be rejected are among the mutants.
+// Defects in the test statistics of other renderers. Each test names a defect with a case that it accepts, and checks
+// that libmc rejects the case. tests/mutants contains the wrong distributions.
 
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
@@ -11,9 +11,8 @@
 
 namespace {
 
-// hypothesis.h: the variance is floored at 1e-5, so a mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4
-// after a million
-// values: 100 standard errors.
+// hypothesis.h: the variance has a lower bound of 1e-5. A mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4
+// after a million values, although it is 100 standard errors off.
 TEST(PeerDefects, TTest_SmallVariance_IsNotFloored) {
   mc::Moments m;
   for (int i = 0; i < 1'000'000; ++i) m.add(1.001e-4 + (i % 2 ? 1e-6 : -1e-6));
@@ -22,8 +21,7 @@ TEST(PeerDefects, TTest_SmallVariance_IsNotFloored) {
   EXPECT_LT(t.p, 1e-300);
 }
 
-// Mitsuba 3: the last group of pooled cells is dropped while incomplete, so 100000 samples where 1 is expected
-// pass.
+// Mitsuba 3: the last group of pooled cells is dropped if it is incomplete, so 100000 samples pass where 1 is expected.
 TEST(PeerDefects, ChiSquare_IncompletePool_IsCounted) {
   std::vector<double> expected(5000, 1000 - 1.0 / 5000);
   std::vector<std::uint64_t> observed(5000, 980);
@@ -34,7 +32,7 @@ TEST(PeerDefects, ChiSquare_IncompletePool_IsCounted) {
   EXPECT_LT(mc::chi_square(observed, expected).p, 1e-300);
 }
 
-// Mitsuba 3: no samples at all, nothing expected: accepted with p = 1.
+// Mitsuba 3: no samples and no expected samples pass with p = 1.
 TEST(PeerDefects, ChiSquare_NoSamples_Throws) { EXPECT_THROW(mc::chi_square({0, 0, 0}, {0, 0, 0}), mc::Error); }
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace {
 
-// What other languages copy: a change of any of these needs another MC_PLUGIN_ABI.
+// Plugins in other languages copy this layout: a change requires a new MC_PLUGIN_ABI.
 TEST(PluginHeader, LayoutOfVersionOne) {
   ASSERT_EQ(sizeof(void*), 8u);
   EXPECT_EQ(sizeof(mc_parameter), 32u);

@@ -18,7 +18,7 @@ TEST(Matchers, WarpLaws) {
   EXPECT_WARP_LAWS(mc::CosineHemisphere<float>{}, few);
 }
 
-// A grey that reflects `albedo`, and says so in its samples unless `stated` differs.
+// A grey diffuse BSDF with the given albedo. Its samples state the value for `stated`, which is wrong if it differs.
 struct Grey {
   struct Sample {
     mc::Vec3<double> wi;

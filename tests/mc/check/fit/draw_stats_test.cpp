@@ -12,7 +12,7 @@ namespace {
 
 using Draw = mc::Subject::Draw;
 
-// Every tenth draw is broken in one of five ways, in turn.
+// Every tenth draw has one of five faults, in turn.
 mc::Subject broken_subject() {
   mc::Subject s;
   s.name = "broken";
@@ -73,7 +73,7 @@ TEST(DrawStats, EachViolationKind_IsCheck) {
                   "outcomes of probability 0: outcome 1 was drawn 20 times, should never be: its probability is 0"));
 }
 
-// A density that is not a number, or negative, is no density of 0.
+// A NaN density and a negative density have faults of their own, different from a density of 0.
 TEST(DrawStats, InvalidDensity_HasOwnFault) {
   mc::Subject s;
   s.dim = 1;
@@ -102,7 +102,7 @@ TEST(DrawStats, InvalidDensity_HasOwnFault) {
   EXPECT_THAT(faults, testing::ElementsAre(mc::Fault::not_finite, mc::Fault::negative, mc::Fault::zero_pdf));
 }
 
-// On the edge of the domain it says nothing of the density.
+// An invalid density on the edge of the domain does not imply a wrong density.
 TEST(DrawStats, InvalidDensityOnChartFace_IsMeasureZero) {
   mc::Subject s;
   s.dim = 2;
@@ -131,7 +131,7 @@ TEST(DrawStats, InvalidDensityOnChartFace_IsMeasureZero) {
       << "rounding puts no four where nothing is";
 }
 
-// In a sharp lobe of float the density before the point was rounded is another one: 2.4 % within four steps here.
+// In a sharp lobe over float, the density changes when the point is rounded: by 2.4 % within four steps here.
 TEST(DrawStats, WeightErrorWithinRounding_Passes) {
   const auto broken = [](double weight, double slope) {
     mc::Subject s;
@@ -178,7 +178,7 @@ TEST(DrawStats, SubjectWithoutDraws_Throws) {
   EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&, const auto&) {}), mc::Error);
 }
 
-// One that always fails, as its density of 0 says: nothing is wrong, and nothing was judged.
+// A distribution that always fails, in agreement with its density of 0: no fault, but nothing was tested.
 TEST(DrawStats, AllDrawsFail_IsInconclusive) {
   mc::Subject s;
   s.may_fail = true;

@@ -23,13 +23,14 @@ TEST(InteriorDensity, InfiniteDomain_IsFiniteOnFaces) {
   EXPECT_TRUE(std::isfinite(interior_density(s, {0, 0, 0})));
 }
 
-// Points beside 0 stay where they are, and the face is so far from them that a chart of the line is finite there.
+// Points close to 0 stay in place. The density at the face is taken so close to 0 that the chart of the line stays
+// finite.
 TEST(InteriorDensity, RealLine_FacesReturnTailDensity) {
   const Subject cauchy = make_subject(
       "Cauchy", mc::RealLine<double>(0, 1),
       [](mc::Pcg& r) { return std::tan(mc::pi<double> * (r.uniform<double>() - 0.5)); },
       [](double x) { return 1 / (mc::pi<double> * (1 + x * x)); });
-  // x = -1 / (2 v) there, so that the density over v is 2 / pi.
+  // There x = -1 / (2 v), so the density over v is 2 / pi.
   for (const double v : {0.0, 1e-300, 1e-100, 1e-20, 1 - 0x1p-53, 1.0})
     EXPECT_NEAR(interior_density(cauchy, {v, 0, 0}), 2 / mc::pi<double>, 1e-12) << v;
   const Subject root = make_subject(
@@ -59,14 +60,14 @@ TEST(InteriorDensity, AdjacentDensity_BreakAtSinglePoint_ReturnsNeighbour) {
   EXPECT_TRUE(adjacent_density(peak, {0.5, 0, 0}));
   const Subject undefined = on_unit([](double x) { return x == 0.5 ? std::nan("") : 1.0; });
   EXPECT_FALSE(adjacent_density(undefined, {0.5, 0, 0}));
-  // Far from 0 a double tells no nearer points apart.
+  // Far from 0, doubles do not resolve nearer points.
   const Subject shifted = make_subject(
       "shifted", mc::Interval<double>(1e6, 1e6 + 1), [](mc::Pcg& r) { return 1e6 + mc::sqr(r.uniform<double>()); },
       [](double x) { return 0.5 / std::sqrt(x - 1e6); });
   EXPECT_NEAR(adjacent_density(shifted, {0, 0, 0}).value(), 0x1p14, 0x1p11);
 }
 
-// 1e-40 of the way through [1e6, 1e6 + 1] is 1e6 in double, where the root is infinite.
+// In [1e6, 1e6 + 1], v = 1e-40 is rounded to 1e6, where the root is infinite.
 TEST(InteriorDensity, AdjacentDensity_PointRoundedOntoEnd_ReturnsNeighbour) {
   const auto of = [](double (*pdf)(double)) {
     return make_subject(

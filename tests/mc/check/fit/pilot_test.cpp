@@ -36,7 +36,7 @@ TEST(Pilot, Nearest_ReturnsClosestPointsOnAxis) {
     std::sort(distances.begin(), distances.end());
     for (const std::uint32_t i : pilot.nearest(0, v, 16)) found.push_back(std::abs(pilot.points[i][0] - v));
     ASSERT_EQ(found.size(), 16u);
-    // Of points at one place any may be left out: the farthest found is no farther than the 16th.
+    // Points at the same position are interchangeable, so only the distance of the farthest point is compared.
     EXPECT_LE(*std::max_element(found.begin(), found.end()), distances[15] + 1e-12) << v;
   }
 }

@@ -37,7 +37,7 @@ TEST(CountComparison, Spread_IncludesBothVariances) {
   const mc::CountComparison c = compare(bin, 1);
   EXPECT_EQ(c.excess, 40);
   EXPECT_EQ(c.sample_variance, 1);
-  EXPECT_NEAR(c.point_variance, 2, 1e-12); // as 120 samples see it: 240 / 120
+  EXPECT_NEAR(c.point_variance, 2, 1e-12); // in units of the 120 samples: 240 / 120
   EXPECT_NEAR(c.mean, (120 * 2 + 80) / 3.0, 1e-12);
   EXPECT_NEAR(c.z(), 40 / std::sqrt(3 * c.mean), 1e-12);
 }
@@ -54,9 +54,9 @@ TEST(CountComparison, SamplesWithoutExpectation_AreRejected) {
   EXPECT_EQ(compare(bin, 1).p(), 0);
 }
 
-// Bins of right samples in which random points of very different weights speak: half of the mass by points that stand
-// for one sample, half by points that stand for 40, of which there is often none. 20000 bins at p <= 1e-3: at most 35
-// with probability 0.999.
+// Bins of correct samples and random points of very different weights. Half of the mass comes from points that
+// represent one sample, half from points that represent 40, of which there is often none. 20000 bins at p <= 1e-3: at
+// most 35 with probability 0.999.
 TEST(CountComparison, RareHeavyPoints_AreNotRejected) {
   Pcg random(1);
   int rejected = 0, blind = 0;
@@ -67,7 +67,7 @@ TEST(CountComparison, RareHeavyPoints_AreNotRejected) {
       for (int i = poisson(random, 60 / weight); i > 0; --i) bin.add_expected(weight);
     }
     rejected += compare(bin, 1).p() <= 1e-3;
-    // What the random points alone would have said.
+    // Uses only the random points for the variance.
     bin.shares = 0;
     blind += compare(bin, 1).p() <= 1e-3;
   }
@@ -75,8 +75,8 @@ TEST(CountComparison, RareHeavyPoints_AreNotRejected) {
   EXPECT_GE(blind, 200);
 }
 
-// The other way round: bins in which three samples of weight 1 are expected, and thirty of weight 0.01; one in 20 has
-// only the light ones.
+// Bins with three expected samples of weight 1 and thirty of weight 0.01. One bin in 20 contains only the light
+// samples.
 TEST(CountComparison, RareHeavySamples_AreNotRejected) {
   Pcg random(2);
   int rejected = 0, blind = 0;
@@ -87,7 +87,7 @@ TEST(CountComparison, RareHeavySamples_AreNotRejected) {
       for (int i = poisson(random, mass / 0.1); i > 0; --i) bin.add_expected(0.1, weight);
     }
     rejected += compare(bin, 1).p() <= 1e-3;
-    // What the samples alone would have said.
+    // Uses only the samples for the variance.
     bin.weights = 0;
     blind += compare(bin, 1).p() <= 1e-3;
   }

@@ -1,4 +1,4 @@
-// Laws over samplers made by hand: what the warps of laws_test.cpp cannot show.
+// Laws of distributions with faults that the warps of laws_test.cpp cannot have.
 
 #include <mc/check/laws.h>
 
@@ -12,7 +12,7 @@ namespace {
 using mc::Fault, mc::PointArray, mc::AnyDistribution;
 using testing::HasSubstr;
 
-// sample(u) on the unit square with density 1.
+// Returns a distribution on the unit square with density 1 and sample(u) = point(u0, u1).
 AnyDistribution on_square(const std::function<PointArray(double, double)>& point) {
   AnyDistribution s = mc::detail::distribution_on("mine", mc::Square<double>());
   s.uniforms = 2;
@@ -55,7 +55,7 @@ TEST(Law, Determinism_SampleReturnsPreviousPoint_Fails) {
   EXPECT_EQ(r.fault(), Fault::nondeterministic) << r.to_string();
 }
 
-// Every second call is another's, whichever of the functions it is.
+// Every second call of a function gives a different result.
 TEST(Law, Determinism_AlternatingResults_Fail) {
   const AnyDistribution right = mc::make_distribution(
       "mine", mc::Interval<double>(0, 2), [](double u) { return 2 * u; }, [](double) { return 0.5; });
@@ -65,7 +65,7 @@ TEST(Law, Determinism_AlternatingResults_Fail) {
     return right.sample(++*calls % 2 ? u : AnyDistribution::Uniforms{1 - u[0]});
   };
   EXPECT_EQ(laws(sample).fault(), Fault::nondeterministic) << laws(sample).to_string();
-  // Beside points where two kinds of one density meet, say, by which the integral hardly changes.
+  // A change of one unit in the last place, which hardly changes the integral.
   pdf.pdf = [=](const PointArray&) { return ++*calls % 2 ? 0.5 : std::nextafter(0.5, 1.0); };
   EXPECT_THAT(laws(pdf).to_string(), HasSubstr("law: determinism of pdf"));
   invert.invert = [=](const PointArray& x) {
@@ -74,7 +74,7 @@ TEST(Law, Determinism_AlternatingResults_Fail) {
   EXPECT_THAT(laws(invert).to_string(), HasSubstr("law: determinism of invert"));
 }
 
-// A density that stands for the point sampled last, wherever it is asked.
+// The density depends on the last sample instead of its argument.
 TEST(Law, Determinism_PdfDependsOnLastSample_Fails) {
   const auto last = std::make_shared<double>(0);
   AnyDistribution s = on_square([last](double a, double b) { return PointArray{*last = a, b}; });
@@ -82,7 +82,7 @@ TEST(Law, Determinism_PdfDependsOnLastSample_Fails) {
   EXPECT_THAT(laws(s).to_string(), HasSubstr("law: determinism of pdf"));
 }
 
-// Of one that takes a stream the density is asked for twice.
+// The law repeats pdf for a distribution that draws from a stream.
 TEST(Law, Determinism_StreamWithPdf_RepeatsPdf) {
   AnyDistribution s = mc::detail::distribution_on("mine", mc::Interval<double>(0, 1));
   s.sample_stream = [](mc::Pcg& random) {
@@ -97,7 +97,7 @@ TEST(Law, Determinism_StreamWithPdf_RepeatsPdf) {
   EXPECT_EQ(laws(s).fault(), Fault::nondeterministic) << laws(s).to_string();
 }
 
-// Between 1e6 and 1e6 + 1 lie 15 floats: counts of them follow how the sampler rounds more than any density.
+// Between 1e6 and 1e6 + 1 there are 15 floats: their counts depend more on rounding than on the density.
 TEST(Law, Resolution_IntervalOfFewFloats_IsInconclusive) {
   const auto tried = []<class S>(S, double power) {
     const auto sample = [power](S u) { return S(1e6) + static_cast<S>(std::pow(u, power)); };
@@ -134,12 +134,12 @@ TEST(Law, BatchConsistency_BatchDiffersFromSingle_Fails) {
   };
   EXPECT_TRUE(laws(many(0, 1)).passed()) << laws(many(0, 1)).to_string();
   EXPECT_THAT(full(laws(many(1, 1))), HasSubstr("batch consistency of sample"));
-  const double in_float = 1 - 1e-7; // of a program that computes vectors in another order
+  const double in_float = 1 - 1e-7; // rounding of float vector code
   EXPECT_THAT(full(laws(many(0, in_float))), testing::Not(HasSubstr("batch")));
   EXPECT_THAT(full(laws(many(0, 0.99))), HasSubstr("batch consistency of pdf"));
 }
 
-// It is a function of u, if a poor one.
+// A constant point is a function of u.
 TEST(Law, Determinism_ConstantSample_IsAtom) {
   const mc::Report r = laws(on_square([](double, double) { return PointArray{0.5, 0.5}; }));
   EXPECT_EQ(r.fault(), Fault::atom) << r.to_string();
@@ -156,7 +156,7 @@ TEST(Law, Boundary_ZeroUFails_IsMeasureZeroAndAcceptable) {
   EXPECT_EQ(closed.fault(), Fault::measure_zero) << closed.to_string();
   EXPECT_THAT(closed.to_string(), HasSubstr("--open-interval"));
   EXPECT_TRUE(interval(root, ramp, true).passed()) << interval(root, ramp, true).to_string();
-  // A wrong density stays one, and an edge that is not of measure zero too.
+  // A wrong density and an edge of positive measure still fail.
   EXPECT_NE(interval(
                 root, [](double) { return 1.0; }, true)
                 .verdict(),
@@ -168,7 +168,7 @@ TEST(Law, Boundary_ZeroUFails_IsMeasureZeroAndAcceptable) {
             Fault::boundary);
 }
 
-// |x|, whose samples in the middle are right but for one.
+// The density |x|: sample is correct except at u = 1/2.
 TEST(Law, Boundary_PdfZeroAtOnePoint_IsMeasureZero) {
   const auto root = [](std::floating_point auto u) {
     using S = decltype(u);
@@ -189,7 +189,7 @@ TEST(Law, Boundary_PdfZeroAtOnePoint_IsMeasureZero) {
   EXPECT_THAT(laws(open).to_string(), HasSubstr("open_interval of the distribution itself excludes only u = 0"));
 }
 
-// The arcsine law is infinite at both ends; the last u is rounded onto the upper one.
+// The arcsine density is infinite at both ends, and the last u is rounded onto the upper end.
 TEST(Law, Boundary_InfinitePdfAtDomainEdge_IsMeasureZero) {
   const auto tried = [](double power, bool open) {
     const auto sine = [power](double u) { return std::pow(std::sin(mc::pi<double> / 2 * u), power); };
@@ -201,7 +201,7 @@ TEST(Law, Boundary_InfinitePdfAtDomainEdge_IsMeasureZero) {
   EXPECT_EQ(tried(2.2, true).fault(), Fault::shape);
 }
 
-// An inverse without an oracle: the Jacobian is judged in double.
+// An inverse without an oracle: the Jacobian is tested in double.
 TEST(Law, Jacobian_WithoutOracle_IsTestedInDouble) {
   const auto with = [](double bug, double inverse_bug) {
     AnyDistribution s = on_square([](double a, double b) { return PointArray{1 - std::sqrt(1 - a), b}; });

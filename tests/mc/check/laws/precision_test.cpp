@@ -15,7 +15,7 @@ std::string of_sample(const mc::Report& report) {
   return "no check";
 }
 
-// Near the rim a step of u moves z by a hundred: what a mixture makes of u is rounded once more, which is no fault.
+// Near the rim, one step of u changes z by a hundred steps. A mixture rounds u once more, which is no fault.
 TEST(PrecisionLaw, ErrorWithinRoundingOfU_Passes) {
   const mc::Mixture mixture(std::array<double, 2>{1e-4, 1 - 1e-4}, mc::UniformHemisphere<double>{},
                             mc::CosineHemisphere<double>{});
@@ -23,7 +23,7 @@ TEST(PrecisionLaw, ErrorWithinRoundingOfU_Passes) {
     EXPECT_EQ(of_sample(check_laws(mixture, {.samples = 0, .seed = seed})), "pass") << seed;
 }
 
-// Off by 64 steps where the sample moves as fast as u does.
+// Off by 64 steps, although the sample changes as fast as u.
 struct Shifted : mc::UniformInterval<double> {
   using mc::UniformInterval<double>::UniformInterval;
   double sample(double u) const { return u + 64 * 0x1p-52; }

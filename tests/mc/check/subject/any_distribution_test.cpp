@@ -41,7 +41,7 @@ TEST(AnyDistribution, RandomUniforms_AreOfItsScalar) {
   }
 }
 
-// An outcome of probability 1/4 beside the interval.
+// An outcome of probability 1/4 in addition to the interval.
 AnyDistribution point_and_lobe() {
   AnyDistribution s = unit();
   s.atoms = {0.25};
@@ -63,7 +63,7 @@ TEST(AnyDistribution, PointsAndDeltaLobe_AreDrawnTogether) {
   EXPECT_EQ(check_subject(make_subject(s), {.samples = 50'000}).verdict(), mc::Verdict::fail);
 }
 
-// Wherever it is, and however rare: of some outcomes too, beside which the draw of the witness is counted.
+// The fault is found at any place and for rare points. With outcomes, the index of the witness counts all draws.
 TEST(AnyDistribution, NonFiniteInverse_Fails) {
   for (const double lost : {1e-2, 2e-4}) {
     AnyDistribution s = point_and_lobe();
@@ -82,14 +82,14 @@ TEST(AnyDistribution, NonFiniteInverse_Fails) {
   }
 }
 
-// The typed way of a warp and the one step by step: the same draws, bit for bit, with those that fail, lie outside or
-// are not finite among them.
+// draw_many and the calls of sample and pdf give the same draws bit for bit, including draws that fail, lie outside or
+// are not finite.
 TEST(AnyDistribution, DrawMany_EqualsSampleAndPdf) {
   const auto expect_same = [](AnyDistribution s) {
     ASSERT_TRUE(s.draw_many);
     std::vector<mc::Subject::Draw> typed, stepwise;
     make_subject(s).draw(7, 3000, typed);
-    s.sample = [sample = s.sample](const AnyDistribution::Uniforms& u) { return sample(u); }; // another function
+    s.sample = [sample = s.sample](const AnyDistribution::Uniforms& u) { return sample(u); }; // disables draw_many
     make_subject(s).draw(7, 3000, stepwise);
     ASSERT_EQ(typed.size(), stepwise.size());
     for (std::size_t i = 0; i < typed.size(); ++i) {
@@ -111,7 +111,7 @@ TEST(AnyDistribution, DrawMany_EqualsSampleAndPdf) {
       [](double x) { return x < 0.5 ? 0.0 : HUGE_VAL; }));
 }
 
-// Where densities are answered many at a time nearly all of the checker's questions come so, with the same results.
+// The checker evaluates nearly all densities in batches if the distribution supports them, with the same results.
 TEST(AnyDistribution, PdfMany_IsCalledOnce) {
   AnyDistribution s = mc::make_distribution(
       "e", mc::HalfLine<double>(0, 2), [](double u) { return -std::log1p(-u); }, [](double x) { return std::exp(-x); });

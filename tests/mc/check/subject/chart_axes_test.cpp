@@ -8,7 +8,7 @@ namespace {
 
 using mc::Axis, mc::chart_axes, mc::Vec2, mc::Vec3;
 
-// The axes of a domain of directions or of the plane read off what the chart's points show.
+// Compares the axes of a domain of directions or of the plane with angles and radii of the chart's points.
 template <class D> void expect_polar(const D& domain, bool directions) {
   const std::vector<Axis> axes = chart_axes(domain);
   ASSERT_EQ(axes.size(), 2u);
@@ -60,7 +60,7 @@ TEST(ChartAxes, Triangle_HasBarycentricCoordinates) {
   EXPECT_DOUBLE_EQ(axes[1].value(0.6), b[1] / (1 - b[0]));
 }
 
-// A triangle under a name that no one knows.
+// A triangle without an overload of chart_axes.
 struct Unknown : mc::Triangle<double> {};
 
 TEST(ChartAxes, UnknownDomain_ShowsChartCoordinates) {

@@ -74,7 +74,7 @@ TEST(MakeSubject, Witness_NamesUniformNumbers) {
               testing::StartsWith("u = " + mc::detail::format_point(random.point<float, 2>()) + ", x = "));
 }
 
-// A light seen from a point: a rectangle at height 1, sampled by area, its radiance divided by the density of
+// Direct light from a rectangle at height 1, sampled by area. The weight is the radiance over the density of
 // directions.
 struct AreaLightSeen {
   struct Sample {
@@ -83,7 +83,7 @@ struct AreaLightSeen {
     double pdf;
   };
   double bug = 1;
-  // The point at height 1 in direction w.
+  // Returns the point at height 1 in direction w.
   static mc::Vec2<double> hit(const mc::Vec3<double>& w) { return {w.x() / w.z(), w.y() / w.z()}; }
   static bool visible(const mc::Vec3<double>& w) {
     return w.z() > 0 && std::abs(hit(w).x()) <= 1 && std::abs(hit(w).y()) <= 0.5;

@@ -58,8 +58,8 @@ TEST(Oracle, Print_FollowsStreamPrecision) {
   EXPECT_EQ(out.str(), "0.1 -2.50e+02");
 }
 
-// From x = 2^-150, where erfc(x) is nearly 1, to 200, where it lies far below what double holds: within a few of what
-// the last digit of erfc(x) says of x.
+// From x = 2^-150, where erfc(x) is nearly 1, to x = 96, where it is far below the range of double. The bound is a few
+// times the error of x for one unit in the last place of erfc(x).
 TEST(Oracle, ErfcInvInvertsErfc) {
   mc::Pcg random(3);
   const mc::Oracle last = ldexp(mc::Oracle(1), -168);
@@ -76,7 +76,7 @@ TEST(Oracle, ErfcInvInvertsErfc) {
   EXPECT_TRUE(isinf(erfc_inv(mc::Oracle(0))) && isinf(erfc_inv(mc::Oracle(2))) && isnan(erfc_inv(mc::Oracle(-1))));
 }
 
-// MPFR's constants are a thread's own: other threads find the same numbers.
+// MPFR caches constants per thread: all threads get the same numbers.
 TEST(Oracle, SameResultInEveryThread) {
   const mc::Oracle here = log(mc::Oracle(3)) * sin(mc::Oracle(2));
   std::vector<mc::Oracle> there(8);

@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A lobe cos^n about +z from the cosine itself, which a float cannot tell from 1 where n is large.
+// A lobe cos^n about +z computed from the cosine, which is rounded to 1 in float for large n.
 template <class S> auto lobe_from_cosine(S n) {
   return mc::make_distribution(
       "lobe", mc::Hemisphere<S>(),
@@ -56,7 +56,7 @@ TEST(Quantization, OwnScalar_IsNotReported) {
   EXPECT_EQ(mc::describe_quantization(mc::make_distribution("disk", mc::UniformDisk<float>()), 1), "");
 }
 
-// x of so many random bits, scaled.
+// x with the given number of random bits, times `scale`.
 template <class S> mc::AnyDistribution of_bits(int bits, S scale = 1) {
   return mc::make_distribution(
       "x", mc::Interval<S>(0, scale), [=](S u) { return scale * std::ldexp(std::floor(std::ldexp(u, bits)), -bits); },
@@ -89,7 +89,7 @@ TEST(Quantization, CoarseAngleSteps_HaveUnit) {
             "cos theta has only multiples of 0.00098 (2^-10)");
   EXPECT_EQ(mc::describe_quantization(sphere(smooth, [](double u) { return std::floor(1024 * u) / 1024; }), 1),
             "phi has only multiples of 0.00098 turns (2^-10)");
-  // Within a narrow lobe, where a float would do no better than 2^-24.
+  // In a narrow lobe, where float steps are 2^-24.
   EXPECT_EQ(mc::describe_quantization(sphere([](double u) { return 1 - std::floor(256 * u) / 65536; }, smooth), 1),
             "cos theta has only multiples of 1.5e-05 (2^-16)");
 }
@@ -97,7 +97,7 @@ TEST(Quantization, CoarseAngleSteps_HaveUnit) {
 const std::string excess =
     ", off by the rounding error of float: compute it in double, or declare the distribution as float";
 
-// The cosine hemisphere over float, told as one over double.
+// The cosine hemisphere over float, declared as double.
 TEST(Quantization, PointOutsideByFloatRounding_IsReported) {
   const mc::CosineHemisphere<float> warp;
   const auto in_float = [=](const mc::Vec2<double>& u) {

@@ -49,7 +49,7 @@ TEST(Cubature, Error_IsWithinStatedBound) {
       mc::CubatureGoal g;
       g.total_error = goal;
       const mc::CubatureResult r = integrate_boxes(c.f, c.dim, {mc::UnitBox{}}, g);
-      // The curved edge of a disk costs evaluations as 1 / error.
+      // For the curved edge of a disk the number of evaluations grows as 1 / error.
       if (std::string(c.name) == "disk" && goal < 1e-4) continue;
       EXPECT_TRUE(r.converged) << c.name << " " << r.evaluations;
       EXPECT_LE(r.total.error, goal) << c.name;
@@ -57,7 +57,7 @@ TEST(Cubature, Error_IsWithinStatedBound) {
     }
 }
 
-// One factor f(x) on [0,1] with its integral.
+// A factor f(x) on [0,1] with its integral.
 struct Factor {
   std::function<double(double)> f;
   double integral;

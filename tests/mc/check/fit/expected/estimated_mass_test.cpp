@@ -26,7 +26,7 @@ TEST(EstimatedMass, Box_EqualsIntegral) {
   EXPECT_LE(m.variance, 1e-7);
 }
 
-// Half of each pair of mirrored points is as far above the middle as the other is below.
+// The deviations of mirrored points from the centre cancel.
 TEST(EstimatedMass, LinearDensity_IsExact) {
   const mc::Subject s = make_subject(
       "ramp", mc::Interval<double>(0, 1), [](Pcg& r) { return std::sqrt(r.uniform<double>()); },
@@ -37,8 +37,8 @@ TEST(EstimatedMass, LinearDensity_IsExact) {
   EXPECT_NEAR(m.largest, 0.4375, 1e-15);
 }
 
-// A jump in one of 50 boxes: 2000 runs, each within 5 of the standard deviations that allow for what one box may hide,
-// and their mean right to 5 of its own.
+// A jump in one of 50 boxes, 2000 runs. Each error is within 5 worst-case standard deviations, which include the mass
+// that one box may hide. The mean error is within 5 of its standard deviations.
 TEST(EstimatedMass, DensityWithJump_StaysWithinStatedError) {
   double sum = 0, squares = 0;
   const int runs = 2000;
@@ -75,10 +75,10 @@ TEST(LinearFit, JumpOnSlope_HasLargeResidual) {
   };
   EXPECT_LE(add(0), 1e-6);
   EXPECT_GE(add(1), 0.25 / 8);
-  EXPECT_LE(add(0), 1e-6); // it began anew
+  EXPECT_LE(add(0), 1e-6); // the fit was reset
 }
 
-// Sixteen times the mean square of what a jump at a random place hides from n random points.
+// Sixteen times the mean square that a jump at a random position hides from n random points.
 TEST(EstimatedMass, HiddenJumpVariance_IsScaledBySixteen) {
   for (const double n : {4.0, 12.0, 40.0}) {
     double mean = 0;

@@ -11,13 +11,13 @@ namespace {
 
 using mc::Pcg, mc::sqr, mc::Vec2;
 
-// With the points of the pilot inside, or the 64 that are nearest to its middle.
+// Uses the pilot points inside, at least the 64 nearest to the centre.
 mc::IntervalQuery query(const mc::Pilot& pilot, double lo, double hi, double mass) {
   const double inside = (pilot.rank(1, hi) - pilot.rank(1, lo)) * static_cast<double>(pilot.points.size());
   return {1, lo, hi, pilot.nearest(1, 0.5 * (lo + hi), std::max<std::size_t>(64, std::llround(inside))), mass};
 }
 
-// A uniform square, and nine tenths of the samples on a ridge across it that is 1/2000 wide.
+// A uniform square with nine tenths of the samples on a ridge of width 1/2000 across it.
 mc::Subject ridge(double slope, double at) {
   constexpr double width = 1.0 / 2000, share = 0.9;
   const auto moved = [](double x) { return x - std::floor(x); };
@@ -31,8 +31,8 @@ mc::Subject ridge(double slope, double at) {
       [=](const Vec2<double>& p) { return 1 - share + (moved(p[0] - at - slope * p[1]) < width ? share / width : 0); });
 }
 
-// Layers that hold ten to ten thousand of 1e5 samples, of 400 ridges at random: none is off by more than five of the
-// standard deviations that it states.
+// Layers with ten to ten thousand of 1e5 samples, for 400 random ridges. Every error is within five stated standard
+// deviations.
 TEST(IntervalMass, StatedErrorCoversMissedMass) {
   Pcg random(2);
   for (int i = 0; i < 400; ++i) {
@@ -47,7 +47,7 @@ TEST(IntervalMass, StatedErrorCoversMissedMass) {
   }
 }
 
-// Where the density is smooth nothing hides: to a fiftieth, a tenth of what chance does to 25 samples.
+// For a smooth density the standard deviation is at most a fiftieth of the mass, a tenth of the noise of 25 samples.
 TEST(IntervalMass, SmoothDensity_HasSmallError) {
   const mc::Subject s = make_subject(
       "powers", mc::Square<double>{}, [](const Vec2<double>& u) { return Vec2<double>(sqr(u[0]), std::cbrt(u[1])); },

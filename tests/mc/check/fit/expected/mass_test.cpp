@@ -17,7 +17,7 @@ mc::Subject flat(double height) {
       [height](double) { return height; });
 }
 
-// The mass where no density exceeds the caps: what the points say of it is what they say under the caps.
+// The mass if no density exceeds the caps: capped and uncapped integrals are equal.
 mc::ClaimedMass claimed(const mc::Subject& s, const mc::CubatureResult& c, const mc::EstimatedMass& points,
                         const mc::SampleWeights& samples) {
   return claimed_mass(s, c, points, points, samples);
@@ -44,7 +44,7 @@ TEST(Mass, WrongNormalization_Fails) {
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::fail);
 }
 
-// What the cubature missed the reference has seen: then the samples decide.
+// The reference contains mass that the cubature missed, so the samples decide.
 TEST(Mass, CubatureContradictsSamples_IsNotUsed) {
   const mc::Subject s = flat(1);
   mc::CubatureResult c;
@@ -57,7 +57,7 @@ TEST(Mass, CubatureContradictsSamples_IsNotUsed) {
   EXPECT_EQ(test_mass(s, off, 0.01).verdict, Verdict::fail);
 }
 
-// A tenth of the draws clipped to almost nothing: what they stand for is added to the mass.
+// A tenth of the draws is clipped to almost nothing; the mass that they represent is added.
 TEST(Mass, ClippedDensity_IsEstimatedFromSamples) {
   const mc::Subject s = flat(1);
   mc::CubatureResult c;
@@ -69,8 +69,8 @@ TEST(Mass, ClippedDensity_IsEstimatedFromSamples) {
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
 }
 
-// Cubature that is off by 1 to 8 standard deviations of the estimate, and says that it is exact: a right density fails
-// at most once in 1000 however far off it is. 4000 runs each: at most 13 with probability 0.999.
+// A cubature that is off by 1 to 8 standard deviations of the estimate, but claims to be exact. A correct density fails
+// with probability at most 1e-3 for any of these errors. For 4000 runs each, at most 13 fail with probability 0.999.
 TEST(Mass, OverconfidentCubature_CorrectDensityPasses) {
   const mc::Subject s = flat(1);
   const double sigma = 1e-3;
@@ -99,7 +99,7 @@ TEST(Mass, DiscreteOutcomes_AddUpExactly) {
   EXPECT_EQ(test_mass(s, claimed(s, {}, {}, plain(1e5)), 0.01).verdict, Verdict::fail);
 }
 
-// Where weights of the samples say that the mass is off and random points say that it is 1, the samples are wrong.
+// If the weights of the samples contradict mass 1 but the random points confirm it, the samples are wrong.
 TEST(Mass, SamplesMissDensity_IsFaultOfShape) {
   mc::Subject s;
   s.dim = 2;

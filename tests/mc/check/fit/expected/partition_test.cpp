@@ -48,7 +48,7 @@ TEST(Partition, CellsTileCubeWithEqualShares) {
       EXPECT_NEAR(volume, 1, 1e-12);
       std::vector<int> counts(512);
       for (const Point& p : draw(dim, 65536, 2, power)) ++counts[static_cast<std::size_t>(partition.cell(p))];
-      // 128 expected; splits between the 45 and 55 % quantiles at nine levels keep shares within a factor of 1.1^9 =
+      // 128 expected. Splits between the 45 % and 55 % quantiles at nine levels keep shares within a factor of 1.1^9 =
       // 2.4.
       for (const int c : counts) EXPECT_TRUE(c >= 30 && c <= 400) << c;
     }
@@ -70,7 +70,7 @@ TEST(Partition, DegeneratePilots_AreAccepted) {
   EXPECT_THROW(mc::Partition({}, 2, 40), mc::Error);
 }
 
-// Where no box may be narrower than 1/20 the cells that are left tile the cube, and the others are empty.
+// If no box may be narrower than 1/20, the remaining cells tile the cube and the others are empty.
 TEST(Partition, UnsplittableBoxes_StayWhole) {
   const auto may_split = [](const mc::UnitBox& box, std::size_t axis, double place, const Point& beside) {
     EXPECT_TRUE(beside[axis] >= box.lo[axis] && beside[axis] <= box.hi[axis]);

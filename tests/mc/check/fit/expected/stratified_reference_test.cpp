@@ -26,7 +26,7 @@ Estimated estimate(const mc::Subject& s, std::uint64_t seed, std::size_t most = 
   return e;
 }
 
-// A smooth density is known far better than its counts, and never capped.
+// The mass of a smooth density is far more accurate than its counts, and no sample is capped.
 TEST(StratifiedReference, SmoothDensity_HasSmallError) {
   const mc::Subject s = make_subject(
       "linear", mc::Interval<double>(0, 1), [](Pcg& r) { return std::sqrt(r.uniform<double>()); },
@@ -38,8 +38,8 @@ TEST(StratifiedReference, SmoothDensity_HasSmallError) {
   EXPECT_FALSE(e.masses.invalid_point);
 }
 
-// Breaks make a table exact, however rough; without them the error that is stated holds: 64 cells within 5 of their
-// standard deviations, and their mean square within what chi-square of 64 allows at 1e-4.
+// With breaks the integral of a rough table is exact. Without breaks the stated error holds: 64 cells are within 5
+// standard deviations, and the sum of their squares is within the 1e-4 quantile of chi-square of 64.
 TEST(StratifiedReference, RandomTexels_StatedVarianceCoversError) {
   mc::Pcg random(11);
   std::vector<double> texels(317);
@@ -68,7 +68,7 @@ TEST(StratifiedReference, RandomTexels_StatedVarianceCoversError) {
   EXPECT_LE(square, 115);
 }
 
-// A lobe that few samples know of: its strata are small enough to see it.
+// A lobe with few samples gets strata small enough to resolve it.
 TEST(StratifiedReference, NarrowLobe_IsStratifiedAroundPilot) {
   const double k = 5e-3, s0 = 1e-9, at = 0.3141592;
   const mc::Subject s = make_subject(
@@ -80,7 +80,7 @@ TEST(StratifiedReference, NarrowLobe_IsStratifiedAroundPilot) {
   EXPECT_LE(e.masses.total.variance, 1e-6);
 }
 
-// Density that no point of the reference meets weighs little in the samples too.
+// A sample has a small weight if its density far exceeds the cap.
 TEST(StratifiedReference, Weight_AboveCap_IsReduced) {
   mc::Subject s = make_subject(
       "flat", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); }, [](double) { return 1.0; });
@@ -100,7 +100,7 @@ TEST(StratifiedReference, NonFiniteDensity_KeepsFirstPoint) {
   EXPECT_GT((*e.masses.invalid_point)[0], 0.9);
 }
 
-// Of a lobe of 64 steps of a float a cut inside moves a step or so, of doubles nothing that shows.
+// A cut inside a lobe of 300 float steps moves about one step of samples. In double the effect is negligible.
 TEST(PilotCells, RoundingShares_ArePositiveOnlyForNarrowLobes) {
   const auto largest = [](double width, double epsilon) {
     mc::Subject s = make_subject(

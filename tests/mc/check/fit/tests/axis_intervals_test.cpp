@@ -14,7 +14,7 @@ namespace {
 
 using IntervalKind = mc::AxisInterval::Kind;
 
-// The intervals of 20000 samples on [0,1] that claim to be uniform.
+// Returns the intervals of 20000 samples on [0,1] that claim to be uniform.
 template <class Sampler> std::vector<mc::AxisInterval> intervals(Sampler sampler) {
   const mc::Subject s = make_subject("slabs", mc::Interval<double>(0, 1), sampler, [](double) { return 1.0; });
   const mc::Pilot pilot = draw_pilot(s, 5, 160'000);
@@ -33,10 +33,10 @@ TEST(AxisIntervals, ClampedCoordinate_IsAtom) {
   EXPECT_LE(atom->box.lo[0], 1e-3);
   EXPECT_GE(atom->box.hi[0], 1e-3);
   EXPECT_LE(atom->mass.value, 1e-12);
-  EXPECT_GE(atom->count, 8); // 20 expected; fewer than 8 once in 1000 seeds
+  EXPECT_GE(atom->count, 8); // 20 expected; fewer than 8 with probability 0.001
 }
 
-// The verdict on the atoms of n exponential samples, drawn from random numbers of that many bits; `limit` at most.
+// Returns the verdict on the atoms of n exponential samples from random numbers of `bits` bits, clamped at `limit`.
 mc::Verdict atoms(std::uint64_t seed, std::uint64_t n, int bits, double limit) {
   const mc::Subject s = make_subject(
       "exponential", mc::HalfLine<double>(0, 1),
@@ -48,8 +48,8 @@ mc::Verdict atoms(std::uint64_t seed, std::uint64_t n, int bits, double limit) {
       .verdict;
 }
 
-// Of 50000 samples four are expected above the limit: two or more in 91 of 100 runs, in fewer than 97 of 120 with
-// probability 2e-4.
+// Four of 50000 samples are expected above the limit: two or more with probability 0.91. Fewer than 97 of 120 runs have
+// two or more with probability 2e-4.
 TEST(AxisIntervals, EqualPairAtEnd_IsAtom) {
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 120; ++seed)
@@ -57,14 +57,15 @@ TEST(AxisIntervals, EqualPairAtEnd_IsAtom) {
   EXPECT_GE(found, 97);
 }
 
-// Of 1e5 samples of 32 bits one pair is equal in the mean, somewhere. The test spends 3e-4.
+// One pair of 1e5 samples of 32 bits is equal on average. The test spends 3e-4.
 TEST(AxisIntervals, FewRandomBits_AreNoAtom) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
     for (const int bits : {32, 53})
       EXPECT_EQ(atoms(seed, 100'000, bits, HUGE_VAL), mc::Verdict::pass) << seed << ", " << bits;
 }
 
-// All samples lie within a few steps of the scalar: the interval holds the lobe, and its claimed mass is the lobe's.
+// All samples lie within a few steps of the scalar: the interval contains the lobe, and its claimed mass is the mass of
+// the lobe.
 TEST(AxisIntervals, LobeThinnerThanInterval_IsNoAtom) {
   for (const float width : {1e-7f, 2e-7f, 5e-7f})
     for (const float decay : {1e-2f, 1e-4f, 1e-6f}) {
@@ -87,7 +88,7 @@ TEST(AxisIntervals, LobeThinnerThanInterval_IsNoAtom) {
     }
 }
 
-// Holes of 0.004, each 80 spacings wide.
+// Holes of width 0.004, each 80 spacings wide.
 TEST(AxisIntervals, HolesInsideAndAtEnds_AreGaps) {
   const auto found = intervals([](mc::Pcg& r) {
     for (;;) {
@@ -106,7 +107,7 @@ TEST(AxisIntervals, HolesInsideAndAtEnds_AreGaps) {
                                             testing::DoubleNear(0.998, 1e-3)));
 }
 
-// A triangle of 1e-4 seen in float: its points are rounded to steps of 1e-3 of its chart, and some lie just outside.
+// A triangle of size 1e-4 in float: its points are rounded to steps of 1e-3 in the chart, and some lie just outside.
 TEST(AxisIntervals, RoundedCoordinates_AreNoGap) {
   const mc::SphericalTriangle<float> triangle(mc::Vec3<float>(0.3f, -0.2f, 0.9f), mc::Vec3<float>(1e-4f, 1e-5f, -2e-5f),
                                               mc::Vec3<float>(3e-5f, 1e-4f, 5e-6f));

@@ -43,8 +43,8 @@ TEST(CellTests, AlphaShares_SumToAtMostAlpha) {
   }
 }
 
-// 1000 runs at 10 %, of which 91 % is spent; KS on cells is conservative. Binomial(1000, 0.1) lies below 140 with
-// 0.9999.
+// 1000 runs at 10 %, of which 91 % is spent; KS on cells is conservative. Binomial(1000, 0.1) is below 140 with
+// probability 0.9999.
 TEST(CellTests, CorrectCounts_RejectedAtMostAtAlpha) {
   int rejected = 0;
   for (int run = 0; run < 1000; ++run) {
@@ -72,7 +72,7 @@ TEST(CellTests, WrongExponentsSpikesAndSteps_Fail) {
   EXPECT_EQ(report(mc::test_cells(cells, 1, 0.01)).verdict(), mc::Verdict::fail) << "alternating";
 }
 
-// What it says it catches, it catches: random signs of the stated size, and a single cell off by the stated size.
+// Errors of the stated size are detected: random signs, and a single wrong cell.
 TEST(CellTests, DetectableError_IsRejected) {
   auto cells = uniform_cells(256);
   fill(cells, 6, 100000);
@@ -101,8 +101,8 @@ TEST(CellTests, DetectableError_IsRejected) {
   EXPECT_GE(caught_cell, 95);
 }
 
-// Probabilities that were estimated themselves, of as large a variance as the counts: 500 runs at 10 %. Binomial(500,
-// 0.1) lies below 75 with 0.9998. What is far beyond both is still found.
+// Estimated probabilities with the same variance as the counts: 500 runs at 10 %. Binomial(500, 0.1) is below 75 with
+// probability 0.9998. Errors far beyond both variances are still found.
 TEST(CellTests, EstimatedProbabilities_KeepAlpha) {
   int rejected = 0;
   for (int run = 0; run < 500; ++run) {
@@ -122,7 +122,7 @@ TEST(CellTests, EstimatedProbabilities_KeepAlpha) {
   EXPECT_LE(rejected, 75);
 }
 
-// Samples that count half, and a count of twice as many: the variance follows the weights.
+// All samples have the same weight below 1: the variance follows the weights.
 TEST(CellTests, WeightedSamples_RejectedAtRateAlpha) {
   int rejected = 0;
   for (int run = 0; run < 300; ++run) {
@@ -131,12 +131,12 @@ TEST(CellTests, WeightedSamples_RejectedAtRateAlpha) {
     for (int i = 0; i < 20000; ++i) count_in(cells[static_cast<std::size_t>(128 * random.uniform<double>())], 0.25);
     rejected += !report(mc::test_cells(cells, 1, 0.1)).passed();
   }
-  EXPECT_LE(rejected, 48); // Binomial(300, 0.1) stays below with 0.9995
+  EXPECT_LE(rejected, 48); // Binomial(300, 0.1) is below 48 with probability 0.9995
   EXPECT_GE(rejected, 5);
 }
 
-// One expectation is known to three hundredths and one deviation off; the others, known exactly, are off by as much
-// once the sum is given: no run of them is at fault.
+// One expectation has a standard deviation of 0.03 and is one deviation off. Given the sum, the other, exact
+// expectations are off by the same amount: no run of them is wrong.
 TEST(CellTests, UncertainCell_FailsNoOtherCell) {
   std::vector<mc::Cell> cells(64);
   for (mc::Cell& c : cells) {

@@ -8,7 +8,7 @@
 
 namespace {
 
-// Points of density 1 + sin(2 pi x): samples by rejection, or uniform ones that do not follow it.
+// Density 1 + sin(2 pi x): correct samples by rejection, or uniform samples that ignore it.
 mc::Check levels(std::uint64_t seed, bool right, double alpha) {
   mc::Pcg random(seed);
   mc::DensityRatioTest levels;

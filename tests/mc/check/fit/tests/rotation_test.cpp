@@ -12,7 +12,7 @@ namespace {
 using V = mc::Vec3<double>;
 using mc::Fault, mc::Pcg;
 
-// Density z / pi * (1 + 0.8 cos phi) [1/sr], drawn with phi turned by some degrees.
+// Density z / pi * (1 + 0.8 cos phi) [1/sr], sampled with phi rotated by `degrees`.
 mc::Subject bent_cosine(double degrees, double bend = 0.8) {
   const auto sampler = [=](Pcg& r) {
     for (;;) {
@@ -36,8 +36,8 @@ TEST(FindRotation, SmallAndLargeRotations_AreFound) {
     const std::size_t at = text.find(words);
     ASSERT_NE(at, std::string::npos) << text;
     const double found = std::stod(text.substr(at + words.size()));
-    // The score's standard error is 0.3 degree here, the search of large turns resolves 0.2 and sees an eighth of the
-    // samples.
+    // The standard error of the score is 0.3 degrees here. The search of large rotations resolves 0.2 degrees and uses
+    // an eighth of the samples.
     EXPECT_LE(std::abs(std::remainder(found - degrees, 360)), 2.5) << degrees << text;
   }
 }
@@ -48,7 +48,7 @@ TEST(FindRotation, OtherShape_IsNoRotation) {
   EXPECT_TRUE(check_subject(bent_cosine(0), {.samples = 200'000}).passed());
 }
 
-// A density that no turn changes: no turn of its wrong samples explains them, however many are tried.
+// No rotation changes this density, so no rotation explains the wrong samples.
 TEST(FindRotation, RotationallySymmetricDensity_HasNoRotation) {
   for (const double exponent : {0.8, 1.1, 1.5}) {
     const auto sampler = [exponent](Pcg& r) {

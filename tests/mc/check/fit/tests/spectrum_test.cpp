@@ -41,7 +41,7 @@ TEST(FourierTransform, RealRows_EqualComplexTransform) {
   }
 }
 
-// Samples of the unit square that `point` makes of uniform numbers, against uniform expectation.
+// Tests samples of the unit square, given by `point` from random numbers, against a uniform expectation.
 template <class F> bool fails(std::uint64_t seed, int n, double alpha, F point) {
   Pcg random(seed);
   mc::SpectrumTest grid(2, n, 0);
@@ -56,14 +56,14 @@ template <class F> bool fails(std::uint64_t seed, int n, double alpha, F point) 
   return failed;
 }
 
-// 200 runs at 10 %: at most 36 with probability 0.9997. The expectation is known or made of random points itself.
+// 200 runs at 10 %: at most 36 with probability 0.9997. The expectation is exact, or estimated from random points.
 TEST(SpectrumTest, CorrectSamples_RejectedAtMostAtAlpha) {
   int known = 0, estimated = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     known += fails(seed, 4000, 0.1, [](Pcg& r) {
       return mc::Subject::Coordinates{r.uniform<double>(), r.uniform<double>(), 0};
     });
-    // An uneven density, with a third of as many random points.
+    // An uneven density, with fewer random points than samples.
     Pcg random(seed, 5);
     mc::SpectrumTest grid(2, 4000, 0);
     const auto point = [&] {

@@ -19,8 +19,8 @@ std::vector<std::array<double, 3>> points(std::uint64_t seed, int n, double powe
   return p;
 }
 
-// 400 runs at 10 %: Binomial(400, 0.1) lies in 16 to 66 with probability 0.9999; dependent tests make Sidak
-// conservative.
+// 400 runs at 10 %: Binomial(400, 0.1) is between 16 and 66 with probability 0.9999. Dependent tests make Sidak's
+// correction conservative.
 TEST(Uniformity, UniformPoints_RejectedAtRateAlpha) {
   int rejected = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed)

@@ -21,7 +21,7 @@ struct Mirror {
   }
 };
 
-// A uniform cone of half angle about `spread` around the mirror direction, of albedo 0.8.
+// A uniform cone of half angle `spread` (approximately) around the mirror direction, with albedo 0.8.
 struct Cone {
   double spread, albedo = 0.8, tilt = 0;
   double height() const { return spread * spread / 2; } // 1 - cos
@@ -41,7 +41,7 @@ struct Cone {
   }
 };
 
-// Of four wavelengths, the last `last` times the others.
+// A BSDF with four wavelengths; the last has `last` times the value of the others.
 template <class B> struct FourWavelengths {
   struct Sample {
     V wi;
