@@ -1,10 +1,9 @@
-// How often the checker rejects right samplers at alpha = 1 %; power_bench.cpp counts how often it finds wrong ones.
-// Usage: bench_mc_check_calibration [SEEDS [SAMPLES [right|promise [FIRST_SEED [NAME]]]]]; NAME keeps the rows that
-//        contain it.
-// Prints per density: runs, rejections with the 95 % interval of their rate (Clopper-Pearson), inconclusive runs. The
-// tests are conservative (discrete counts, KS on cells), so right samplers are rejected at most at the rate of alpha.
-// With `promise` as the kind: how often the errors that a report calls detectable are caught, which should be .99 of
-// the runs.
+// Measures the rate at which the checker rejects correct subjects at alpha = 1 %. power_bench.cpp measures its power.
+// Usage: bench_mc_check_calibration [SEEDS [SAMPLES [right|promise [FIRST_SEED [NAME]]]]]. NAME selects the rows that
+// contain it.
+// Prints for each density: runs, rejections with the 95 % interval of their rate (Clopper-Pearson), inconclusive runs.
+// The tests are conservative (discrete counts, KS on cells), so the rate is at most alpha. The kind `promise` measures
+// how often the checker detects errors of the size that a report states, which should be .99 of the runs.
 
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/check_subject.h>
@@ -42,7 +41,7 @@ V incident(double degrees) {
   return {std::sin(t), 0, std::cos(t)};
 }
 
-// A third perfect mirror, two thirds Lambert, a tenth absorbed: an atom, a density and failures in one.
+// A mixture of a perfect mirror and a Lambertian lobe with absorption: an atom, a density and failures at once.
 struct Coated {
   struct Sample {
     V wi;
@@ -62,7 +61,7 @@ struct Coated {
   }
 };
 
-// Mirror directions about visible normals; those below the horizon fail.
+// Mirror directions about visible normals; directions below the horizon fail.
 template <class S> mc::Subject reflected(const std::string& name, S alpha, double theta) {
   using W = mc::Vec3<S>;
   const W wo = incident(theta).cast<S>();
@@ -116,7 +115,7 @@ std::vector<mc::Subject> subjects() {
     return mc::TableDist2D<double>(w, 2048, 1024);
   }());
 
-  // Beyond the list of issue and peers: float at the extremes, failures, atoms, outcomes.
+  // Additional subjects: float at the extremes, failures, atoms, outcomes.
   for (const float a : {1e-2f, 1e-4f})
     right(fmt::format("GGX normals alpha={:g} float", a), mc::TrowbridgeReitzNormals<float>(a));
   for (const double theta : {0.0, 89.9})
@@ -144,9 +143,10 @@ std::string interval(std::size_t hits, std::size_t runs) {
                      binomial::find_upper_bound_on_p(n, k, 0.025));
 }
 
-// A uniform density whose samples are off, with random signs from cell to cell, by what the report of right ones calls
-// detectable. Dyadic cells of equal mass, so the checker's cells are about these. What it says of a single cell holds
-// for its own cells only, which the pilot moves where one is heavier: see cell_tests_test.cpp.
+// Tests a uniform density with samples that have random signs from cell to cell, of the size that the report of correct
+// samples calls detectable. The cells are dyadic with equal mass, so they coincide approximately with the checker's
+// cells. The statement about a single cell holds only for the checker's own cells, which the pilot moves if one is
+// heavier; cell_tests_test.cpp tests it.
 void promise(std::size_t seeds, std::uint64_t samples, std::uint64_t first) {
   const mc::Interval<double> unit(0, 1);
   const auto uniform = [](double) { return 1.0; };
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
              "inconclusive", "s per run");
   for (const mc::Subject& subject : subjects()) {
     if (subject.name.find(name) == std::string::npos) continue;
-    // Seeds of its own for each density: many warps turn the same numbers into the same counts.
+    // Each density has its own seeds, because many warps turn equal numbers into equal counts.
     const std::uint64_t own = mc::hash(first, std::hash<std::string>{}(subject.name));
     std::vector<mc::Report> reports(seeds);
     mc::parallel_for(seeds, 0, [&](std::size_t i) {

@@ -1,12 +1,13 @@
-// How often the checker rejects random right samplers, and how often it misses random faults, by their kind and size.
+// Measures how often the checker rejects random correct subjects, and how often it misses random faults, by kind and
+// size.
 // Usage: bench_mc_check_error_rates right|narrow|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
-//   right   : random right samplers, see random_subjects.h
-//   narrow  : right ones with narrow features, likewise
-//   faults  : random faults in them, of sizes around what can be found, see random_faults.h
-//   promise : random faults of the size that the report of the right sampler says it detects
-//   foreign : CASES seeds of each of the samplers of regression_subjects.h
-//   NAME    : only subjects in whose name this stands
-// Prints CSV with a first line that holds the command; a summary on the standard error. alpha = 1 %.
+//   right   : random correct subjects of random_subjects.h.
+//   narrow  : random correct subjects with narrow features.
+//   faults  : random faults of random_faults.h in correct subjects, with sizes around the detectable size.
+//   promise : random faults of the size that the report of the correct subject calls detectable.
+//   foreign : CASES seeds of each subject of regression_subjects.h.
+//   NAME    : selects subjects with names that contain it.
+// Prints CSV after a line with the command, and a summary on the standard error. alpha = 1 %.
 
 #include <mc/check/random_faults.h>
 #include <mc/check/regression_subjects.h>
@@ -31,7 +32,7 @@ mc::Report check(const Subject& subject, std::uint64_t seed, const Options& o) {
   return check_subject(subject, {.samples = static_cast<std::uint64_t>(o.samples), .seed = seed, .alpha = 0.01});
 }
 
-// One fault of a random kind. Sizes go from a fifth to five times what is about detectable.
+// Returns a fault of random kind. Its size is between a fifth and five times the detectable size, approximately.
 FaultySubject random_fault(const Subject& right, std::uint64_t seed, double samples) {
   Pcg r(mc::hash(seed, 78));
   const double sigma = std::sqrt(1 / samples), factor = log_uniform(r, 0.2, 5);

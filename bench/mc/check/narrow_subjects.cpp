@@ -16,10 +16,10 @@ using mc::sqr;
 using V2 = mc::Vec2<double>;
 using V3 = mc::Vec3<double>;
 
-// On a torus.
+// Returns x modulo 1, on a torus.
 double wrapped(double x) { return std::min(x - std::floor(x), 1 - 0x1p-53); }
 
-// An annulus, and an even square.
+// A mixture of an annulus and a uniform square.
 Subject ring(Pcg& r) {
   const double k = log_uniform(r, 1e-3, 1), inner = log_uniform(r, 0.01, 0.35),
                width = inner * log_uniform(r, 1e-4, 0.3), outer = inner + width;
@@ -39,7 +39,7 @@ Subject ring(Pcg& r) {
       });
 }
 
-// exp(-|x - centre| / scale) on [0,1].
+// The density proportional to exp(-|x - centre| / scale) on [0,1].
 struct Peak {
   double centre, scale;
   double below() const { return -std::expm1(-centre / scale); }
@@ -52,7 +52,7 @@ struct Peak {
   double pdf(double x) const { return std::exp(-std::abs(x - centre) / scale) / (scale * (below() + above())); }
 };
 
-// A peak on an even square, in one of two cases at an edge.
+// A mixture of a peak and a uniform square; half of the coordinates of the peak are at an edge.
 Subject spot(Pcg& r) {
   const auto place = [&] {
     switch (random_index(r, 4)) {
@@ -74,7 +74,7 @@ Subject spot(Pcg& r) {
       [=](const V2& p) { return 1 - k + k * x.pdf(p[0]) * y.pdf(p[1]); });
 }
 
-// A band across a square whose density is a power of y.
+// A band across a square with a density that is a power of y.
 Subject ridge(Pcg& r) {
   const double k = log_uniform(r, 1e-2, 1), width = log_uniform(r, 1e-5, 0.2), at = uniform(r),
                a = uniform_between(r, 0.4, 3), slope = log_uniform(r, 0.01, 30) * (random_index(r, 2) == 0 ? 1 : -1);
@@ -91,7 +91,7 @@ Subject ridge(Pcg& r) {
       });
 }
 
-// A skew tube through a box whose density is a power of z.
+// A skew tube through a box with a density that is a power of z.
 Subject tube(Pcg& r) {
   const double k = log_uniform(r, 1e-2, 1), a = uniform_between(r, 0.4, 3);
   const std::array<double, 2> width{log_uniform(r, 1e-3, 0.2), log_uniform(r, 1e-3, 0.2)}, at{uniform(r), uniform(r)},

@@ -1,6 +1,6 @@
-// Every known-wrong sampler against the checker: rejections at alpha = 1 % over several seeds, beside what the checkers
-// of other renderers print for the same disturbance.
-// Usage: bench_mc_check_power [SEEDS [SAMPLES [ID]]]; 20 seeds of 1e6 samples unless told otherwise.
+// Runs the checker on every known bug: rejections at alpha = 1 % over several seeds, next to the rejection rates of the
+// checkers of other renderers.
+// Usage: bench_mc_check_power [SEEDS [SAMPLES [ID]]]. The default is 20 seeds of 1e6 samples.
 
 #include <known_bugs/known_bugs.h>
 
@@ -13,8 +13,8 @@
 
 namespace {
 
-// Rejection rates measured at alpha = 1 % and 1e6 samples: Nori's chi-square, its warptest (5.2e6 samples), Mitsuba
-// 3's, pbrt-v4's, and the best of a multi-resolution chi-square, KS, moments and mass on their own.
+// Rejection rates of other checkers, measured at alpha = 1 % and 1e6 samples. Columns: Nori's chi-square, its warptest
+// (5.2e6 samples), Mitsuba 3, pbrt-v4. `best` is the best of a multi-resolution chi-square, KS, moments and mass.
 struct Peers {
   double nori, warptest, mitsuba, pbrt, best;
 };

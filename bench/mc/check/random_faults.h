@@ -1,5 +1,5 @@
 #pragma once
-/// Faults of random place, shape and scale, put into right samplers; see random_subjects.h.
+/// Faults of random position, shape and scale in correct subjects; see random_subjects.h.
 
 #include <mc/check/random_subjects.h>
 
@@ -17,8 +17,8 @@
 
 namespace checker_bench {
 
-/// A wrong sampler.
-///   size : relative error of the density, share of the samples that are wrong, or cells of a lattice
+/// A subject with a fault.
+///   size : relative error of the density, fraction of wrong samples, or number of lattice cells.
 struct FaultySubject {
   std::string kind;
   double size = 0;
@@ -28,7 +28,7 @@ struct FaultySubject {
 using Draw = Subject::Draw;
 using Coordinates = Subject::Coordinates;
 
-/// The draws of a right sampler, each changed, or left out where `change` says false.
+/// Changes the draws of a correct subject; omits draws for which `change` returns false.
 inline Subject with_changed_draws(Subject right, const std::function<bool(Pcg&, Draw&)>& change) {
   right.draw = [draw = right.draw, change](std::uint64_t seed, std::size_t n, std::vector<Draw>& out) {
     Pcg random(seed, 91);
@@ -48,12 +48,12 @@ inline Subject with_changed_draws(Subject right, const std::function<bool(Pcg&, 
   return right;
 }
 
-/// The density of the samples is (1 + error(v)) times the claimed one; |error| <= most.
+/// Returns a subject with samples of density (1 + error(v)) times the claimed density, for |error| <= most.
 inline Subject reweighted(const Subject& right, double most, const std::function<double(const Coordinates&)>& error) {
   return with_changed_draws(right, [=](Pcg& r, Draw& d) { return uniform(r) * (1 + most) < 1 + error(d.v); });
 }
 
-/// Ranks of chart coordinates among samples, axis by axis: a scale on which any density is about even.
+/// Ranks of chart coordinates among samples, per axis: a scale on which the marginal densities are nearly uniform.
 struct Ranks {
   std::array<std::vector<double>, 3> sorted;
   std::vector<Coordinates> points;
@@ -81,7 +81,7 @@ struct Ranks {
   }
 };
 
-/// A turned and stretched frame of the ranks that keeps their volumes.
+/// A rotated and stretched frame of the ranks that preserves volumes.
 struct Frame {
   std::array<std::array<double, 3>, 3> axes{};
   Frame(Pcg& r, int dim) {
@@ -110,7 +110,7 @@ struct Frame {
   }
 };
 
-/// Random signs on a lattice of random offset and direction with about `patches` cells.
+/// Returns an error with random signs on a lattice of random offset and direction with about `patches` cells.
 inline FaultySubject random_signs(const Subject& right, Pcg& r, double size, double patches) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 14);
   const Frame frame(r, right.dim);
@@ -127,7 +127,7 @@ inline FaultySubject random_signs(const Subject& right, Pcg& r, double size, dou
           })};
 }
 
-/// One region of this share of the samples, an ellipsoid or a box of the ranks, with more or fewer samples.
+/// Returns an error in one region with the given share of the samples: an ellipsoid or a box of the ranks.
 inline FaultySubject one_region(const Subject& right, Pcg& r, double size, double share) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 17);
   const Frame frame(r, right.dim);
@@ -147,8 +147,7 @@ inline FaultySubject one_region(const Subject& right, Pcg& r, double size, doubl
           })};
 }
 
-/// A smooth error: of the exponent along an axis, a tilt along it, or a correlation of two axes; the sampler's ranks
-/// are (1 + size) times too bent.
+/// Returns a smooth error in ranks: a wrong exponent along an axis, a tilt along it, or a correlation of two axes.
 inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 16);
   const auto axis = static_cast<std::size_t>(random_index(r, right.dim)), other = (axis + 1) % 3;
@@ -163,7 +162,7 @@ inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
           })};
 }
 
-/// A wave of up to 100 periods an axis.
+/// Returns a wave error with at most 100 periods along an axis.
 inline FaultySubject wave(const Subject& right, Pcg& r, double size) {
   const double k = uniform_between(r, -100, 100), l = uniform_between(r, -100, 100), m = uniform_between(r, -15, 15),
                phase = uniform(r);
@@ -174,7 +173,7 @@ inline FaultySubject wave(const Subject& right, Pcg& r, double size) {
           })};
 }
 
-/// Values of a coordinate that belong to a share of the samples are left out, or become one value.
+/// Omits an interval of a coordinate with the given share of the samples, or clamps it to one value.
 inline FaultySubject gap_or_clamp(const Subject& right, Pcg& r, double share) {
   const Ranks ranks(right, r.next64(), 1 << 19);
   const auto axis = static_cast<std::size_t>(random_index(r, right.dim));
@@ -196,7 +195,7 @@ inline FaultySubject gap_or_clamp(const Subject& right, Pcg& r, double share) {
           })};
 }
 
-/// Coordinates that share the digits beyond a lattice, or lack them.
+/// Rounds a coordinate to a lattice, with equal remainders on two axes or with constant remainder.
 inline FaultySubject lattice(const Subject& right, Pcg& r) {
   const double n = std::floor(log_uniform(r, 16, 400));
   const bool shared = random_index(r, 2) == 0 && right.dim > 1;
@@ -208,7 +207,7 @@ inline FaultySubject lattice(const Subject& right, Pcg& r) {
           })};
 }
 
-/// A share of the samples moved into a small box around one of them.
+/// Moves a share of the samples into a small box around one of them.
 inline FaultySubject spike(const Subject& right, Pcg& r, double share) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 12);
   const Coordinates centre = ranks->points[r.next64() % ranks->points.size()];
@@ -222,6 +221,7 @@ inline FaultySubject spike(const Subject& right, Pcg& r, double share) {
           })};
 }
 
+/// Scales the claimed density by 1 + size.
 inline FaultySubject wrong_mass(Subject right, double size) {
   right.density = [density = right.density, size](const Coordinates& v) { return (1 + size) * density(v); };
   return {"mass", size, with_changed_draws(right, [](Pcg&, Draw& d) {
@@ -230,9 +230,9 @@ inline FaultySubject wrong_mass(Subject right, double size) {
           })};
 }
 
-/// An error of the size that the report of the right sampler states, of any shape that the statement is about: on
-/// patches that hold the share of four of the checker's cells or more, or in one such region; one in two as small as
-/// that.
+/// Returns a fault of the size that the report of the correct subject states, of random kind. The error covers patches
+/// with the probability of at least four of the checker's cells, or one such region. Half of the faults have the
+/// smallest such patches.
 inline FaultySubject stated_fault(const Subject& right, const mc::Report& stated, std::uint64_t seed) {
   Pcg r(mc::hash(seed, 79));
   const double cells = std::exp2(std::floor(std::log2(static_cast<double>(stated.samples) / 200)));

@@ -37,7 +37,7 @@ using mc::sqr;
 using V2 = mc::Vec2<double>;
 using V3 = mc::Vec3<double>;
 
-// A warp without its inverse and its oracle, which the statistical tests of most cases do without.
+// Returns the subject of a warp without inverse and oracle, which the statistical tests of most cases do not need.
 template <mc::Warp W> Subject plain(const std::string& name, const W& warp) {
   const auto shared = std::make_shared<const W>(warp);
   return make_subject(
@@ -63,8 +63,8 @@ Subject table(const std::string& name, const std::vector<double>& w, std::size_t
   return s;
 }
 
-// Weights of n cells: even, random, random to the fourth power, nearly even with one bright cell, or a multiplicative
-// cascade.
+// Returns the weights of n cells: random, random to the fourth power, nearly uniform with one bright cell, smooth, or a
+// multiplicative cascade. Some have zeros.
 std::vector<double> texture(Pcg& r, std::size_t n, std::string& name) {
   std::vector<double> w(n, 1);
   switch (random_index(r, 5)) {
@@ -127,7 +127,7 @@ template <mc::Real S> Subject lobes(Pcg& r) {
   }
 }
 
-// Warps on the domains that no other kind has.
+// Returns a warp on a domain that no other kind uses.
 template <mc::Real S> Subject shapes(Pcg& r) {
   const auto real = [&](double lo, double hi) { return static_cast<S>(log_uniform(r, lo, hi)); };
   switch (random_index(r, 11)) {
@@ -259,7 +259,7 @@ Subject set_in_box(Pcg& r) {
   case 0: {
     const double slope = uniform_between(r, -0.7, 0.7), width = uniform_between(r, 0.02, 0.2),
                  at = uniform_between(r, 0.4, 0.4 + 0.1);
-    // Between y = at + slope (x - 1/2) and width above it, inside the square for every x.
+    // The strip starts at y = at + slope (x - 1/2) / 2, and is inside the square for every x.
     return uniform_inside(fmt::format("strip {:.2f} wide {:.2f}", slope, width), width, [=](const V2& p) {
       const double y = p[1] - at - 0.5 * slope * (p[0] - 0.5);
       return y >= 0 && y < width;
@@ -314,7 +314,7 @@ Subject product(Pcg& r) {
   const auto x = std::make_shared<mc::TableDist1D<double>>(texture(r, n, name));
   const double a = uniform_between(r, 0.4, 3), shift = uniform(r),
                slope = random_index(r, 2) == 0 ? 0 : uniform_between(r, -2, 2);
-  // On a torus, moved along x by an amount that depends on y.
+  // On a torus, with a shift along x that depends on y.
   const auto moved = [=](double by) { return by - std::floor(by); };
   return make_subject(
       fmt::format("{} beside y^{:.2f} sheared by {:.2f}", name, a - 1, slope), mc::Square<double>{},

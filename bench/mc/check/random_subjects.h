@@ -1,6 +1,6 @@
 #pragma once
-/// Right samplers of random kind, shape and size: what error_rates_bench.cpp and error_rates_test.cpp try the checker on. Same
-/// seed, same subject.
+/// Correct subjects of random kind, shape and size, for error_rates_bench.cpp and error_rates_test.cpp. Equal seeds
+/// give equal subjects.
 
 #include <mc/check/subject/subject.h>
 #include <mc/random/pcg.h>
@@ -13,39 +13,47 @@ namespace checker_bench {
 using mc::Pcg, mc::Subject;
 
 inline double uniform(Pcg& r) { return r.uniform<double>(); }
-/// Between lo and hi, uniform in the logarithm.
+/// Returns a random number between lo and hi, uniform in the logarithm.
 inline double log_uniform(Pcg& r, double lo, double hi) { return lo * std::pow(hi / lo, uniform(r)); }
 inline double uniform_between(Pcg& r, double lo, double hi) { return lo + (hi - lo) * uniform(r); }
 inline int random_index(Pcg& r, int n) { return static_cast<int>(r.next32() % static_cast<std::uint32_t>(n)); }
 
-/// Any of the kinds below, and warps of libmc on their domains, in float or double.
+/// Returns a random subject: any of the kinds below, or a warp of libmc on its domain, in float or double.
 Subject random_correct(std::uint64_t seed);
-/// One with axes.
+/// Returns a random subject with axes.
 Subject random_continuous(std::uint64_t seed);
-/// Narrow features on an even ground, which random points easily miss: a ring, a spot, a ridge or a skew tube.
+/// Returns a narrow feature on a uniform background, which random points easily miss: a ring, a spot, a ridge or a skew
+/// tube.
 Subject random_narrow(std::uint64_t seed);
 
-/// Tables of random size and texture, one in two naming its breaks; a narrow lobe in a uniform sphere; heavy tails;
-/// singular powers in a box; uniform inside a strip, a disk or on a checkerboard; uniform in a ball in a box; broad and
-/// narrow normals on the line; a table beside a power, turned about the axes of a torus; discrete outcomes, up to 1e6.
+/// A table of random size and texture, with or without its breaks.
 Subject table_1d(Pcg& r);
+/// A table in two dimensions of random size and texture, with or without its breaks.
 Subject table_2d(Pcg& r);
+/// A narrow lobe on a uniform sphere.
 Subject lobe_on_sphere(Pcg& r);
+/// A heavy tail on a half line.
 Subject heavy_tail(Pcg& r);
+/// Powers of x, y and z in a box, some of them singular.
 Subject powers_in_box(Pcg& r);
+/// Uniform in a strip, a disk or a checkerboard.
 Subject set_in_box(Pcg& r);
+/// Uniform in a ball in a box.
 Subject ball_in_box(Pcg& r);
+/// A mixture of a broad and a narrow normal on the line.
 Subject normals(Pcg& r);
+/// A table in x times a power of y, sheared on a torus.
 Subject product(Pcg& r);
+/// Discrete outcomes, up to 1e6.
 Subject outcomes(Pcg& r);
 
-/// The sampler of a table, with the breaks that it names or without.
+/// Returns the subject of a table, with or without its breaks.
 Subject table_subject(const std::string& name, const std::vector<double>& weights, std::size_t width,
                       std::size_t height, bool named);
 Subject table_subject(const std::string& name, const std::vector<double>& weights, bool named);
-/// A share k of von Mises-Fisher about `pole` in a uniform sphere.
+/// Returns a mixture of a uniform sphere and a share k of von Mises-Fisher about `pole`.
 Subject lobe_on_sphere(double k, double kappa, const mc::Vec3<double>& pole);
-/// Uniform where `inside` says, a part of the unit square of that area.
+/// Returns the uniform distribution on the part of the unit square where `inside` is true; `area` is its area.
 Subject uniform_inside(std::string name, double area, const std::function<bool(const mc::Vec2<double>&)>& inside);
 Subject uniform_ball_in_box(double radius);
 

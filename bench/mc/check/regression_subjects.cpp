@@ -27,7 +27,7 @@ std::vector<double> texels(std::size_t n, double power) {
   return w;
 }
 
-// A multiplicative cascade: each of `digits` digits to `base` multiplies by .6 or 1.4.
+// Returns a multiplicative cascade: each of `digits` digits in base `base` multiplies by .6 or 1.4.
 std::vector<double> cascade(std::size_t base, int digits, std::uint64_t seed) {
   std::vector<double> w{1};
   for (int level = 0; level < digits; ++level) {
@@ -127,7 +127,7 @@ Subject square(std::string name, std::function<V2(Pcg&)> sample) {
   return make_subject(std::move(name), mc::Square<double>{}, std::move(sample), [](const V2&) { return 1.0; });
 }
 
-// Samples of the square whose density is f <= most.
+// Returns samples of the square with a density proportional to f <= most.
 Subject thinned(std::string name, double most, const std::function<double(double, double)>& f) {
   return square(std::move(name), [=](Pcg& r) {
     for (;;)
@@ -166,7 +166,7 @@ void fine_faults(RegressionSubjects& all) {
     const auto cell = static_cast<std::uint64_t>(61 * x) * 61 + static_cast<std::uint64_t>(61 * y);
     return mc::mix64(cell + 1) & 1 ? 1.0 : -1.0;
   };
-  // Of the sizes that a report states, 1e6 samples at alpha 1 %.
+  // Sizes that a report of 1e6 samples at alpha = 1 % states as detectable.
   all.push_back(
       {thinned("random signs of 5.5 % on 61x61", 1.055, [=](double x, double y) { return 1 + 0.055 * sign(x, y); }),
        false});
@@ -180,7 +180,7 @@ void fine_faults(RegressionSubjects& all) {
                  false});
 }
 
-// Directions with cosine c and azimuth t that claim to be cosine distributed.
+// Returns directions with cosine c and azimuth t that claim to be cosine distributed.
 Subject cosine(std::string name, const std::function<std::array<double, 2>(Pcg&)>& sample) {
   return make_subject(
       std::move(name), mc::Hemisphere<double>{},

@@ -1,5 +1,5 @@
 #pragma once
-/// Samplers from elsewhere on which earlier checkers erred, right ones and wrong ones.
+/// Correct and wrong subjects for which earlier checkers gave the wrong verdict.
 
 #include <mc/check/random_subjects.h>
 
@@ -10,8 +10,8 @@ struct RegressionSubject {
   bool right;
 };
 
-/// Tables of any texture with and without their breaks, narrow lobes, heavy tails, singularities, jumps along curves;
-/// and faults that are finer than any cell, thinner than any layer, or rarer than any share of the samples.
+/// Returns tables of any texture with and without their breaks, narrow lobes, heavy tails, singularities and jumps
+/// along curves. Also faults finer than the cells, thinner than the bins, or rare among the samples.
 std::vector<RegressionSubject> regression_subjects();
 
 } // namespace checker_bench
