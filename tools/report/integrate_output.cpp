@@ -13,7 +13,7 @@ namespace carlo {
 
 namespace {
 
-// What a user can do where there is no error bar.
+// Returns a remedy for an estimate without an error bar.
 const char* remedy(mc::ErrorBar bar) {
   switch (bar) {
   case mc::ErrorBar::known: return "";
@@ -69,7 +69,7 @@ nlohmann::json as_json(const mc::Integral& r, const UnitCubeIntegral& e) {
   return j;
 }
 
-// To whom it ran for, a run that libmc cancelled was interrupted.
+// Returns the stop reason; a cancelled run is called interrupted.
 std::string_view why_stopped(const mc::Integral& r) {
   return r.stop == mc::StopReason::cancelled ? "interrupted" : name(r.stop);
 }
@@ -109,7 +109,7 @@ std::string histogram_table(const IntegrateResults& found) {
     width = std::max(width, b.name.size());
   }
   const mc::Estimate& whole = found.results.outputs.front().estimate;
-  const bool has_shares = std::abs(whole.value) > whole.std_error; // of what may be 0 nothing is a share
+  const bool has_shares = std::abs(whole.value) > whole.std_error; // shares are meaningless if the whole may be 0
   std::string text;
   for (const HistogramBin& b : found.histogram) {
     const double value = b.integral.estimate.value;

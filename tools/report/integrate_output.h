@@ -1,5 +1,5 @@
 #pragma once
-/// What carlo integrate says of its integrals, as text and as JSON.
+/// Results of carlo integrate as text and as JSON.
 
 #include <integrands/unit_cube_integral.h>
 
@@ -11,14 +11,14 @@
 
 namespace carlo {
 
-/// The part of an integral that comes from one bin.
+/// The part of an integral in one bin.
 struct HistogramBin {
-  std::string name; ///< "[0, 0.5) of x"
+  std::string name; ///< for example "[0, 0.5) of x"
   double lo, hi;
   mc::Integral integral;
 };
 
-/// All that a run found.
+/// All results of a run.
 struct IntegrateResults {
   std::vector<UnitCubeIntegral> integrands;
   mc::VectorIntegral results;
@@ -26,16 +26,16 @@ struct IntegrateResults {
   std::vector<mc::Quantile> quantiles = {};
 };
 
-/// "1.3075 ± ..." and what a user can do where there is no error bar, calls and time, the truth where it is known, and
-/// of several the correlations of their errors.
+/// Returns "1.3075 ± ...", or a remedy if there is no error bar; then calls and time, the true value if available, and
+/// the correlations of the errors of several integrands.
 std::string integrate_summary(const IntegrateResults& found);
-/// A row for each round, of the first integrand.
+/// Returns a table with one row per round, for the first integrand.
 std::string round_table(const mc::Integral& r);
-/// A row for each bin with its share of the integral; a row for each quantile.
+/// Returns a table with one row per bin and its share of the integral, or one row per quantile.
 std::string histogram_table(const IntegrateResults& found);
 std::string quantile_table(const IntegrateResults& found);
 
-/// Everything, for a file.
+/// Returns all results, for a file.
 std::string integrals_json(const IntegrateResults& found, const std::string& command, std::uint64_t seed);
 
 } // namespace carlo

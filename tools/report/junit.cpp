@@ -1,4 +1,4 @@
-/// The only file of tools that includes pugixml.
+/// JUnit reports. Only this file of tools includes pugixml.
 
 #include <report/validate_output.h>
 
@@ -11,7 +11,7 @@ namespace carlo {
 
 namespace {
 
-// XML cannot express control characters.
+// Replaces control characters, which XML cannot represent.
 std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';

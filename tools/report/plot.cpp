@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A folder of our own, which goes with the object.
+// A new temporary folder, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -41,16 +41,16 @@ class TemporaryFolder {
 };
 
 std::string_view trimmed(std::string_view text) {
-  return text.substr(0, text.find_last_not_of(" \n") + 1); // of blanks alone: nothing
+  return text.substr(0, text.find_last_not_of(" \n") + 1); // empty for blanks alone
 }
 
-// The last line that gnuplot printed says what is wrong; those before show where.
+// Returns the last line of gnuplot's output, the error message; earlier lines show the context.
 std::string last_line(const std::string& log) {
   const std::string_view text = trimmed(log);
-  return std::string(text.substr(text.rfind('\n') + 1)); // without one, from the start
+  return std::string(text.substr(text.rfind('\n') + 1)); // starts at 0 if there is no line feed
 }
 
-// gnuplot leaves a part on a full disk, and ends with 0.
+// Whether a picture is complete. On a full disk gnuplot writes a part and exits with 0.
 bool is_whole(std::string_view picture, std::string_view kind) {
   return kind == "svg" ? trimmed(picture).ends_with("</svg>") : picture.ends_with("IEND\xAE\x42\x60\x82");
 }
@@ -59,7 +59,7 @@ bool is_whole(std::string_view picture, std::string_view kind) {
 
 void remove_plot(const fs::path& folder, const std::string& name) {
   for (const char* kind : {".svg", ".png"}) {
-    std::error_code none; // it was not there, or cannot be removed: then it could not be written either
+    std::error_code none; // ignored: the file does not exist, or cannot be removed and so could not be written either
     fs::remove(folder / (name + kind), none);
   }
 }

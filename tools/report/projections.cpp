@@ -9,7 +9,7 @@ namespace carlo {
 
 namespace {
 
-// Of one panel, in pixels: the more there are, the smaller.
+// Returns the side of one panel in pixels; more axes give smaller panels.
 int side_of(int axes) {
   if (axes == 2) return 600;
   return axes <= 4 ? 300 : 180;

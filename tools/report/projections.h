@@ -1,5 +1,5 @@
 #pragma once
-/// Points of many dimensions, seen along every pair of axes.
+/// Projections of points of many dimensions onto every pair of axes.
 
 #include <mc/points/point_list.h>
 
@@ -7,9 +7,8 @@
 
 namespace carlo {
 
-/// An SVG picture with a square for each pair of axes, axis 0 to the right and 1 upward in the first. At most 8 axes
-/// are shown.
-///   needs : two dimensions or more
+/// Returns an SVG picture with a square for each pair of axes. In the first square axis 0 points to the right and axis
+/// 1 upwards. The picture shows at most 8 axes. Requires at least two dimensions.
 std::string projections_svg(mc::PointList points);
 
 } // namespace carlo

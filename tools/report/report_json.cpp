@@ -21,7 +21,7 @@ namespace mc {
 
 namespace {
 
-// Enumerations travel as the words of name().
+// Enumerations are stored as the words of name().
 template <class E> E from_word(const std::string& word) {
   for (int i = 0;; ++i) {
     const auto known = name(static_cast<E>(i));
@@ -39,7 +39,7 @@ void from_json(const nlohmann::json& j, Fault& f) { f = from_word<Fault>(j.get<s
 void to_json(nlohmann::json& j, Axis::Scale s) { j = name(s); }
 void from_json(const nlohmann::json& j, Axis::Scale& s) { s = from_word<Axis::Scale>(j.get<std::string>()); }
 
-// Each field once, for both directions.
+// Lists each field once, for both directions.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Axis, name, scale, a, b)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, name, verdict, p, share, statistic, limit, fault, detail)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorstCell, lo, hi, observed, expected, z, where)
@@ -52,7 +52,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Report, subject, alpha, samples, mass, mass_e
 
 namespace {
 
-// These no longer compile when a field is added: name it above too.
+// Fails to compile after a field is added; list the field above as well.
 [[maybe_unused]] void every_field(Report& r, Check& c, Axis& x) {
   [[maybe_unused]] auto& [r1, r2, r3, r4, r5, r6, r7, r8, r9, r10, r11, r12, r13, r14] = r;
   [[maybe_unused]] auto& [c1, c2, c3, c4, c5, c6, c7, c8] = c;

@@ -1,5 +1,5 @@
 #pragma once
-/// Reports as JSON and back: what --json writes, and what one process of carlo tells another.
+/// Reports as JSON and back, for the option --json and for messages between processes of carlo.
 
 #include <mc/check/report/report.h>
 
@@ -9,15 +9,16 @@
 
 namespace carlo {
 
-/// Every field by its name, enumerations by their words. The evidence is there only where the report has it.
+/// Returns every field by its name and enumerations as words. The evidence is present only if the report has it.
 nlohmann::json to_json(const mc::Report& report);
 
-/// The report that to_json was given, bit for bit as long as the JSON was kept as CBOR; as text, what is not finite is
-/// null and cannot be read back.
-///   throws : Error for JSON that to_json did not make
+/// Returns the report that was passed to to_json. CBOR preserves it bit for bit; in text, numbers that are not finite
+/// become null and cannot be read back.
+///   throws : Error for JSON that to_json did not create.
 mc::Report report_from_json(const nlohmann::json& json);
 
-/// As text for a file, indented by one blank; not finite numbers are null, bytes that are no UTF-8 are replaced.
+/// Returns text for a file, indented by one blank. Numbers that are not finite become null; bytes that are not UTF-8
+/// are replaced.
 std::string json_text(const nlohmann::json& json);
 
 } // namespace carlo

@@ -17,7 +17,7 @@ namespace {
 
 json result(const Case& c, const mc::Report& r, const std::string& again) {
   json one = to_json(r);
-  one.erase("evidence"); // the page packs it
+  one.erase("evidence"); // the page packs the evidence
   one.erase("subject");
   one.update({{"name", c.name},
               {"parameters", c.parameters},

@@ -7,23 +7,23 @@
 
 namespace carlo {
 
-/// What a run of validate was asked for, as far as its results name it.
+/// The settings of a run that its results contain.
 struct ValidationSettings {
   std::string command;
   std::uint64_t seed = 1;
   std::uint64_t samples = 0; ///< per case
-  double alpha = 0.01;       ///< family-wise
-  bool from_file = false;    ///< the samples come from a file, which says how many there are
+  double alpha = 0.01;       ///< family-wise level
+  bool from_file = false;    ///< the samples come from a file, which determines their number
   bool open_interval = false;
 };
 
-/// A case that could not be checked: its sampler crashed, say.
+/// A case without a report, for example because its distribution crashed.
 struct UncheckedCase {
   const Case* test_case;
   std::string error;
 };
 
-/// A run of validate: a report for each case that finished.
+/// A run of validate, with a report for each finished case.
 struct ValidationRun {
   ValidationSettings settings;
   const std::vector<const Case*>& cases;
@@ -32,19 +32,19 @@ struct ValidationRun {
   std::vector<UncheckedCase> unchecked = {};
 };
 
-/// The command that repeats one case of a run of so many cases, as a user would type it.
+/// Returns the command with which a user repeats one case of a run of `cases` cases.
 std::string repeat_command(const Case& c, const ValidationSettings& settings, std::size_t cases);
 
-/// The schema is in tools/report/README.md; not finite numbers are null.
+/// Returns JSON with the schema of tools/report/README.md; numbers that are not finite become null.
 std::string validation_json(const ValidationRun& run);
 
-/// One testsuite, one testcase per case with its figures as properties; the report of a case that did not pass is its
-/// failure.
+/// Returns one testsuite with one testcase per case and its values as properties. A case that does not pass has its
+/// report as failure.
 std::string validation_junit(const ValidationRun& run);
 
-/// A page that needs no other file and no network: the results, and for each case that kept its evidence the maps of
-/// observed and expected counts and of their residuals, and the way of its p-value. Cases that did not pass keep all of
-/// their cells, the others 1024.
+/// Writes a page that needs no other file and no network. It contains the results and, for cases with evidence, maps of
+/// observed and expected counts, of residuals, and the p-value as a function of the number of samples. Cases that pass
+/// keep at most 1024 cells, other cases keep all.
 void write_validation_page(const std::string& file, const ValidationRun& run);
 
 } // namespace carlo

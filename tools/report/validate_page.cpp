@@ -78,7 +78,7 @@ std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most) {
 }
 
 std::string fill_page_template(std::string_view data) {
-  // "</script>" in a string of the data would end its element.
+  // "</script>" in a string of the data would end the script element.
   std::string safe;
   for (std::size_t i = 0; i < data.size(); ++i) {
     if (data[i] == '<') safe += "\\u003c";

@@ -1,5 +1,5 @@
 #pragma once
-/// The page of carlo validate: its template with the data put in.
+/// The page of carlo validate, filled from a template.
 
 #include <mc/check/report/report.h>
 
@@ -11,18 +11,18 @@ namespace carlo {
 /// A kd-tree of cells as text.
 struct PackedTree {
   std::string axes; ///< one digit per inner node, in heap order
-  std::string
-      numbers; ///< base64 of 32-bit floats: a split per inner node in heap order, the observed and the expected counts
+  /// Base64 of 32-bit floats: the split of each inner node in heap order, then the observed and the expected counts.
+  std::string numbers;
 };
 
-/// The cells of the evidence, neighbours joined until at most `most` remain.
+/// Returns the cells of the evidence, with neighbours joined until at most `most` remain.
 PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most);
 
-/// Observed and expected counts of the outcomes, neighbours joined until at most `most` remain: base64 of 32-bit
-/// floats.
+/// Returns the observed and expected counts of the outcomes, with neighbours joined until at most `most` remain, as
+/// base64 of 32-bit floats.
 std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most);
 
-/// One HTML file with everything inline. `data` is JSON, see validate_output.h.
+/// Returns one HTML file without external resources. `data` is the JSON of validation_json, with evidence.
 std::string fill_page_template(std::string_view data);
 
 } // namespace carlo
