@@ -10,7 +10,7 @@ inline render::Vec3 at_degrees(double angle) {
   return render::Vec3d(std::sin(theta), 0, std::cos(theta)).cast<render::Float>();
 }
 
-// Mean of f |cos| eta^2 / pdf over n points: the share of light that leaves, so that 1 is all.
+// Mean of f |cos| eta^2 / pdf over n points: the share of light that is scattered.
 template <class B> double albedo(const B& bsdf, double cosine, int n = 1 << 18) {
   using namespace render;
   const Vec3 wo = Vec3d(std::sqrt(1 - cosine * cosine), 0, cosine).cast<Float>();

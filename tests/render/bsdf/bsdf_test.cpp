@@ -35,7 +35,7 @@ TEST(Bsdf, ForwardsToItsAlternative) {
   EXPECT_FALSE(Bsdf(Lambert{}).is_delta());
 }
 
-// To the last bit, also where one step of the direction changes both: narrow lobes at grazing angles.
+// Bit for bit, even for narrow lobes at grazing angles, where one ulp of the direction changes the results.
 TEST(Bsdf, SampleAgreesWithEvalPdfAndEta) {
   const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   mc::Pcg random(7);
@@ -57,8 +57,8 @@ TEST(Bsdf, SampleAgreesWithEvalPdfAndEta) {
       }
 }
 
-// Never more than .01 less than what samples send on, but where lajolla's paint sends on more than it gets; more by
-// what of rough surfaces meets a second facet or ends below the surface.
+// albedo() is at most .01 below the mean sample weight, except for lajolla's paint, which gains energy. It may exceed
+// the mean by the light of rough surfaces that hits a second facet or ends below the surface.
 TEST(Bsdf, AlbedoApproximatesMeanSampleWeight) {
   const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   for (const Float alpha : {Float(0.01), Float(0.1), Float(0.3)})

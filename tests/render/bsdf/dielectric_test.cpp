@@ -13,15 +13,16 @@ TEST(Fresnel, KnownValues) {
   EXPECT_NEAR(fresnel_dielectric(1, Float(1 / 1.5)).reflectance, 0.04, 1e-6);
   EXPECT_EQ(fresnel_dielectric(Float(0.5), 1).reflectance, 0);
   EXPECT_NEAR(fresnel_dielectric(Float(1e-6), Float(1.5)).reflectance, 1, 1e-4);
-  // Leaving glass at 40 degrees, just below the critical angle of 41.81 (course Introduction to Real-Time Ray Tracing, SIGGRAPH 2019, ch. 8).
+  // Leaving glass at 40 degrees, just below the critical angle of 41.81 (course Introduction to Real-Time Ray Tracing,
+  // SIGGRAPH 2019, ch. 8).
   EXPECT_NEAR(fresnel_dielectric(Float(std::cos(40 * mc::pi<double> / 180)), Float(1 / 1.5)).reflectance, 0.245, 5e-4);
   const auto total = fresnel_dielectric(Float(std::cos(42 * mc::pi<double> / 180)), Float(1 / 1.5));
   EXPECT_EQ(total.reflectance, 1);
   EXPECT_EQ(total.cos_t, 0);
 }
 
-// The hemispherical reflectance of glass, 2 int R cos dcos (scene-catalogue G), which Schlick's fit with the wrong
-// cosine misses.
+// The hemispherical reflectance of glass, 2 int R cos dcos, in closed form. Schlick's approximation with the wrong
+// cosine fails this test.
 TEST(Fresnel, HemisphericalReflectance) {
   const int n = 100'000;
   double outside = 0, inside = 0;
@@ -34,8 +35,8 @@ TEST(Fresnel, HemisphericalReflectance) {
   EXPECT_NEAR(inside, 0.59635, 1e-5);
 }
 
-// The way back meets cos_i again up to an ulp of sin^2, that is eps eta^2 / cos_i, and R is steep there: |dR/dcos| <=
-// 6.
+// The refracted cosine leads back to cos_i up to one ulp of sin^2, which is eps eta^2 / cos_i. R is steep there:
+// dR/dcos| <= 6.
 TEST(Fresnel, TheSameFromBothSides) {
   for (int i = 1; i <= 100; ++i) {
     const Float cos_i = Float(i) / 100;
@@ -44,7 +45,7 @@ TEST(Fresnel, TheSameFromBothSides) {
   }
 }
 
-// Five directions at alpha = 1e-5 each; the lobes' probabilities, reciprocity across the surface, energy.
+// Probabilities of the lobes, reciprocity across the surface and energy, for five directions at alpha = 1e-5 each.
 TEST(Dielectric, ObeysTheLawsOnBothSides) {
   for (const double angle : {0.0, 60.0, 89.9, 130.0, 150.0}) {
     const double theta = angle * mc::pi<double> / 180;
@@ -60,7 +61,7 @@ TEST(Dielectric, RefractsBySnellsLaw) {
     const Vec3 wo = Vec3d(std::sin(theta) * 0.6, std::sin(theta) * 0.8, std::cos(theta)).cast<Float>();
     const auto s = Dielectric{}.sample(wo, mc::one_minus_epsilon<Float>, Vec2::Zero());
     ASSERT_TRUE(s.has_value());
-    if (s->eta == 1) { // total reflection
+    if (s->eta == 1) { // total internal reflection
       EXPECT_GE(theta, 90 * mc::pi<double> / 180) << i;
       EXPECT_LE(theta, (180 - 41.81) * mc::pi<double> / 180) << i;
       continue;

@@ -29,8 +29,8 @@ TEST(FuzzyMetal, WithoutFuzzIsAMirror) {
   }
 }
 
-// The closed-form density against the samples; absorbed ones are what the density lacks to 1. Eight cases at alpha =
-// 1e-5.
+// The closed-form density against samples, in eight cases at alpha = 1e-5. Absorbed samples are the density's deficit
+// to 1.
 TEST(FuzzyMetal, SamplesFollowTheChordDensity) {
   for (const double fuzz : {0.1, 1.0})
     for (const double angle : {0.0, 60.0, 85.0, 120.0}) {
@@ -48,7 +48,7 @@ TEST(FuzzyMetal, TendsToTheMirrorAsFuzzVanishes) {
       EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.name << ": " << c.detail;
 }
 
-// Share of samples below the surface as measured from the book's own code ([Shirley16], ch. 10). 4e5 samples: 5 standard
+// Shares of samples below the surface, as measured with the book's code ([Shirley16], ch. 10). 4e5 samples: 5 standard
 // errors are below .004.
 TEST(FuzzyMetal, AbsorbsDirectionsBelowSurface) {
   struct Row {

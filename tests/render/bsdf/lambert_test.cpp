@@ -8,7 +8,7 @@ namespace {
 
 using namespace render;
 
-// Five directions at alpha = 1e-5 each: a right BSDF fails once in 20000 seeds; the seed is fixed.
+// Five directions at alpha = 1e-5 each: a correct BSDF fails for one seed in 20000. The seed is fixed.
 TEST(Lambert, ObeysTheLawsOnBothSides) {
   const Lambert white{Spectrum::Ones()};
   for (const double angle : {0.0, 45.0, 89.9, 100.0, 180.0}) {
@@ -36,8 +36,8 @@ TEST(Lambert, RefusesNonsense) {
     EXPECT_THROW(Lambert(Spectrum(1, bad, 1)), mc::Error);
 }
 
-// The book's in-ball slip has E[cos] = .8 ([Shirley16], ch. 4).
-// The midpoint rule over n x n is off by O(n^-1.5) at the horizon, where the cosine has a root.
+// The book's bug of points in the ball has E[cos] = .8 ([Shirley16], ch. 4). The midpoint rule over n x n points has
+// the error O(n^-1.5), since the cosine is a square root at the horizon.
 TEST(Lambert, MeanCosineIsTwoThirds) {
   const int n = 256;
   double sum = 0;

@@ -21,7 +21,7 @@ TEST(TrowbridgeReitzFacets, MaskingIsThatOfTheTangent) {
     }
 }
 
-// The integral of D cos over the hemisphere by the midpoint rule in 1 - cos = t^4, which spreads the peak.
+// The integral of D cos over the hemisphere, by the midpoint rule in 1 - cos = t^4, which spreads the peak.
 TEST(BlinnPhongFacets, FillTheSurface) {
   for (const double alpha : {0.01, 0.1, 0.5, 1.0}) {
     const BlinnPhongFacets facets{Float(alpha)};
@@ -39,7 +39,7 @@ TEST(BlinnPhongFacets, FillTheSurface) {
   }
 }
 
-// Grooves hide nothing head-on, and what is seen of a facet that faces away goes to 0.
+// Grooves occlude nothing at normal incidence. The visible part of a facet that faces away goes to 0.
 TEST(BlinnPhongFacets, HideEachOtherInGrooves) {
   const BlinnPhongFacets facets{Float(0.5)};
   const Vec3 z = Vec3::UnitZ();
@@ -52,7 +52,7 @@ TEST(BlinnPhongFacets, HideEachOtherInGrooves) {
   }
 }
 
-// The same direction, of length 1 in double, whichever of its parts is small.
+// The direction stays the same, with length 1 in double, for any small component.
 TEST(UnitInDouble, KeepsTheSmallerPart) {
   mc::Pcg random(3);
   for (int i = 0; i < 1000; ++i) {

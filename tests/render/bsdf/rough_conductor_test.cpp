@@ -20,12 +20,12 @@ const Spectrum nothing = Spectrum::Zero(), all = Spectrum::Ones();
 template <class Facets> RoughConductor<Facets> metal(double alpha) {
   return RoughConductor<Facets>(gold, gold_k, Facets(Float(alpha)));
 }
-/// Reflects all that it meets.
+/// Metal without absorption.
 template <class Facets> RoughConductor<Facets> mirror(double alpha) {
   return RoughConductor<Facets>(nothing, all, Facets(Float(alpha)));
 }
 
-// Fresnel's amplitudes with a complex index, in double; random metals from nearly glass to nearly mirrors.
+// Fresnel's amplitudes with a complex index, in double. Random metals range from nearly glass to nearly mirrors.
 TEST(FresnelConductor, IsThatOfAComplexIndex) {
   mc::Pcg random(1);
   for (int i = 0; i < 10'000; ++i) {
@@ -54,7 +54,7 @@ TEST(RoughConductor, ObeysTheLaws) { expect_laws<TrowbridgeReitzFacets>("ggx"); 
 TEST(RoughConductor, ObeysTheLawsWithBlinnPhongFacets) { expect_laws<BlinnPhongFacets>("phong"); }
 
 template <class Facets> void expect_limit(const char* name) {
-  struct Smooth { // the mirror of gold
+  struct Smooth { // a mirror of gold
     std::optional<BsdfSample> sample(const Vec3& wo, Float, const Vec2&) const {
       const Float c = std::abs(wo.z());
       return BsdfSample{Vec3(-wo.x(), -wo.y(), wo.z()), fresnel_conductor(c, gold, gold_k) / c, 1, true};
@@ -73,7 +73,7 @@ TEST(RoughConductor, TendsToTheMirror) {
   expect_limit<BlinnPhongFacets>("phong");
 }
 
-// What single scattering keeps of a white sky, by an independent quadrature, at cosines .9, .5 and .2.
+// Directional albedos of single scattering, by an independent quadrature, at cosines .9, .5 and .2.
 TEST(RoughConductor, LosesMultipleScattering) {
   struct Row {
     double alpha;

@@ -21,8 +21,8 @@ TEST(RoughDielectric, ObeysTheLawsOnBothSides) {
     }
 }
 
-// Of relative index 1.5046, without the division of radiance by the squared index: by an independent quadrature and 4e5
-// samples of another program, +- .0005.
+// Directional albedos for the relative index 1.5046, without division of radiance by the squared index. They are from
+// an independent quadrature and 4e5 samples of another program, +- .0005.
 TEST(RoughDielectric, DirectionalAlbedos) {
   struct Row {
     double alpha;

@@ -15,8 +15,8 @@ double random_log_uniform(mc::Pcg& random, double low, double high) {
   return low * std::pow(high / low, random.uniform<double>());
 }
 
-// Against what the samples of ground glass carry, which knows nothing of the table: 120 coats, five standard errors
-// and the errors that the header states.
+// 120 coats against samples of rough glass, which do not use the table. The bound is five standard errors plus the
+// errors stated in the header.
 TEST(RoughFresnel, AgreesWithRoughDielectric) {
   mc::Pcg random(21);
   for (int k = 0; k < 120; ++k) {
@@ -51,11 +51,11 @@ TEST(RoughFresnel, MeanTransmittanceIsExactForTable) {
       for (int i = 0; i < n; ++i) sum += 2 * (i + 0.5) / n * double(coat.eval(Float((i + 0.5) / n)).transmitted) / n;
       EXPECT_NEAR(coat.mean_transmitted(), sum, 1e-5) << eta << ", " << alpha;
     }
-  // The hemispherical reflectance of smooth glass (scene-catalogue G).
+  // The hemispherical reflectance of smooth glass.
   EXPECT_NEAR(RoughFresnel(Float(1.5), Float(1e-4)).mean_transmitted(), 1 - 0.091777959342, 2e-4);
 }
 
-// A smooth coat's are Fresnel's.
+// The table of a smooth coat contains the Fresnel equations.
 TEST(RoughFresnel, ZeroRoughness_IsExactAtNodes) {
   for (const double eta : {0.7, 1.0, 1.5, 3.0}) {
     const RoughFresnel coat{Float(eta), 0};
@@ -69,8 +69,8 @@ TEST(RoughFresnel, ZeroRoughness_IsExactAtNodes) {
   EXPECT_NEAR(RoughFresnel(Float(1.5), 0).mean_transmitted(), 1 - 0.091777959342, 2e-4);
 }
 
-// Light that comes from everywhere passes a boundary both ways alike, but for the index squared: so the mean from the
-// outside tells what the base gets back from the inside.
+// Uniform light has the same transmittance in both directions through a boundary, except for the squared index. So the
+// mean from the outside determines the light that the coat returns to the base.
 TEST(RoughFresnel, TransmittanceIsReciprocal) {
   for (const double eta : {1.2, 1.5, 2.0})
     for (const double alpha : {1e-4, 0.1, 0.5, 1.0})
@@ -79,7 +79,7 @@ TEST(RoughFresnel, TransmittanceIsReciprocal) {
           << eta << ", " << alpha;
 }
 
-// Extreme indices give shares, not NaN.
+// Extreme indices give shares in [0, 1], not NaN.
 TEST(RoughFresnel, AnyIndex_StaysWithinStatedError) {
   for (const double eta : {1e-6, 1e-3, 0.04, 0.999999, 1.000001, 100.0, 1e6})
     for (const double alpha : {1e-4, 1.0})

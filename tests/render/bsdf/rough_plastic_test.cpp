@@ -38,7 +38,7 @@ TEST(RoughPlastic, ObeysTheLaws) {
     }
 }
 
-// At five standard errors and a table's 3e-4 each.
+// The bound is five standard errors plus 3e-4 for the table.
 TEST(RoughPlastic, ConservesEnergy) {
   mc::Pcg random(11);
   for (int k = 0; k < 200; ++k) {
@@ -69,8 +69,8 @@ TEST(RoughPlastic, IsTheSameBothWays) {
   }
 }
 
-// Away from the mirror direction T(wo) T(wi) / (pi mean T) of the smooth coat, whose mean reflectance at eta = 1.5 is
-// .0917780 (scene-catalogue G); and white paint loses nothing.
+// Away from the mirror direction the value is T(wo) T(wi) / (pi mean T) of the smooth coat. Its hemispherical
+// reflectance at eta = 1.5 is .0917780. White paint loses nothing.
 TEST(RoughPlastic, TendsToTheSmoothOne) {
   const RoughPlastic paint = white(1.5, 1e-4);
   const auto through = [](Float cosine) { return 1 - double(fresnel_dielectric(cosine, Float(1.5)).reflectance); };
@@ -82,7 +82,8 @@ TEST(RoughPlastic, TendsToTheSmoothOne) {
   }
 }
 
-// Of the coat alone, relative index 1.49: by an independent quadrature and 4e5 samples of another program, +- .0005.
+// Directional albedos of the coat alone for the relative index 1.49. They are from an independent quadrature and 4e5
+// samples of another program, +- .0005.
 TEST(RoughPlastic, DirectionalAlbedos) {
   struct Row {
     double alpha, at_09, at_05, at_02;
@@ -96,7 +97,7 @@ TEST(RoughPlastic, DirectionalAlbedos) {
   }
 }
 
-// What its contract says, and that the laws do not let it pass.
+// The gain of energy that the header describes, and its detection by the laws.
 TEST(LajollaBase, GainsTowardsTheHorizon) {
   EXPECT_NEAR(support::albedo(white<LajollaBase>(1.49, 1e-4), std::cos(89.9 * mc::pi<double> / 180)), 1.84, 0.02);
   for (const double alpha : {1e-4, 0.02, 0.1})
@@ -106,7 +107,7 @@ TEST(LajollaBase, GainsTowardsTheHorizon) {
   EXPECT_EQ(report.fault(), mc::Fault::physics) << report.to_string();
 }
 
-// Boundaries of every kind, from near the horizon and above, on both sides.
+// Boundaries of every kind, with directions down to the horizon, on both sides.
 TEST(RelativeIndex, SamplesAreFiniteAtItsEnds) {
   const auto check = [](const auto& bsdf, Float eta) {
     mc::Pcg random(5);

@@ -1,4 +1,4 @@
-// The committed table of what is kept of light that facets scatter once, notebooks-data/single-scattering.
+// The committed table of single-scattering albedos, notebooks-data/single-scattering/albedo.csv.
 
 #include <render/bsdf/rough_conductor.h>
 #include <render/bsdf/rough_dielectric.h>
@@ -30,8 +30,8 @@ double kept(const std::string& material, Float eta, Float alpha, double cosine) 
   return support::albedo(RoughDielectric(eta, alpha), inside ? -cosine : cosine, points);
 }
 
-// At seven of the roughnesses the figures are albedos of today's materials, within what 4096 points know of them; none
-// is above 1.
+// At seven roughnesses the table matches the albedos of the materials, within the error of 4096 points. No albedo
+// exceeds 1.
 TEST(SingleScattering, TheTableIsTrue) {
   std::istringstream lines(mc::read_file(MC_SOURCE_DIR "/notebooks-data/single-scattering/albedo.csv"));
   std::string line, cell;

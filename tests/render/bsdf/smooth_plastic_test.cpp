@@ -12,7 +12,7 @@ using namespace render;
 
 const Spectrum green_base(Float(0.1), Float(0.5), Float(0.3)), all_light = Spectrum::Ones();
 
-// Directions on both sides at alpha = 1e-5 each: the share of the coat, its energy both ways, and the base about it.
+// Directions on both sides at alpha = 1e-5 each: probability and energy of the coat's lobe, and the base.
 TEST(SmoothPlastic, ObeysTheLaws) {
   for (const double eta : {1.49, 0.7})
     for (const double angle : {0.0, 60.0, 85.0, 89.9, 120.0}) {
@@ -37,8 +37,8 @@ TEST(SmoothPlastic, IsWhatRoughPlasticTendsTo) {
   expect_paint_tends_to_it<LajollaBase>();
 }
 
-// The coat by Fresnel's equations, the base T(wo) T(wi) / (pi mean T), whose mean reflectance at 1.5 is .0917780
-// (scene-catalogue G); white paint loses nothing.
+// The coat follows Fresnel's equations and the base T(wo) T(wi) / (pi mean T). The hemispherical reflectance of the
+// coat at eta = 1.5 is .0917780. White paint loses nothing.
 TEST(SmoothPlastic, IsThatOfTheFormulas) {
   const SmoothPlastic paint(Float(1.5), all_light, all_light);
   const auto through = [](Float cosine) { return 1 - double(fresnel_dielectric(cosine, Float(1.5)).reflectance); };

@@ -15,7 +15,7 @@ TEST(TexturedLambert, IsALambertEverywhere) {
 TEST(TexturedLambert, ReflectsNoMoreThanItGets) {
   EXPECT_THROW(TexturedLambert(Checkerboard(Spectrum::Constant(2), Spectrum::Zero())), mc::Error);
   EXPECT_THROW(TexturedLambert(Checkerboard(Spectrum::Constant(-1), Spectrum::Zero())), mc::Error);
-  // White everywhere: interpolation may round, the reflectance does not exceed 1.
+  // A white texture: interpolation may round above 1, but the reflectance stays at most 1.
   const TexturedLambert white(Bitmap(std::make_shared<const Texels>(3, 3, std::vector<Spectrum>(9, Spectrum::Ones()))));
   for (int i = 0; i < 1000; ++i) EXPECT_NO_THROW(white.at({i * 0.0137, i * 0.0071}));
 }

@@ -12,7 +12,7 @@ using namespace render;
 
 const double half_fov = 2 * std::atan(0.5) * 180 / mc::pi<double>;
 
-/// At `origin`, looking along -z.
+/// A camera at `origin` that looks along -z.
 ThinLens facing(const LensOptions& options, const Vec3d& origin = Vec3d::Zero()) {
   return ThinLens(Transform::look_at(origin, origin - Vec3d::UnitZ(), Vec3d::UnitY()), options);
 }
@@ -23,7 +23,7 @@ TEST(ThinLens, PinholeSpansItsFieldOfView) {
   EXPECT_LE((tangent - Vec2(1, Float(0.5))).norm(), 1e-6);
   const auto through = [&](Float x, Float y) { return camera.ray(Vec2(x, y), tangent, Vec2::Zero()); };
   EXPECT_LE((through(Float(0.5), Float(0.5)).d - camera.forward()).norm(), 1e-7);
-  // Top left: to the left and up.
+  // The top left corner is to the left and up.
   EXPECT_LE((through(0, 0).d - Vec3(-1, Float(0.5), -1).normalized()).norm(), 1e-6);
   EXPECT_LE((through(1, 1).d - Vec3(1, Float(-0.5), -1).normalized()).norm(), 1e-6);
   EXPECT_EQ(through(1, 1).o, camera.origin());
@@ -47,8 +47,8 @@ TEST(ThinLens, TheFieldOfViewHasAnAxis) {
   }
 }
 
-// What a ray reaches is seen where it came from, along the way it came, and the density is that of the directions: the
-// area of the film's plane at distance 1 over the cube of the cosine.
+// sample_wi() of a point on a camera ray returns the ray's film point and direction. The density of the direction is 1
+// over the film's area at distance 1 and over the cube of the cosine.
 TEST(ThinLens, SeesWhatItsRaysReach) {
   mc::Pcg random(11);
   for (int i = 0; i < 200; ++i) {
@@ -59,7 +59,7 @@ TEST(ThinLens, SeesWhatItsRaysReach) {
                         .far = i % 5 ? 50 : mc::infinity<double>};
     const ThinLens camera = facing(options, Vec3d(1, 2, 3));
     const Vec2 tangent = camera.tan_half(Float(1.5)), u = random.point<Float, 2>();
-    const Vec2 s = 2 * random.point<Float, 2>() - Vec2::Constant(Float(0.5)); // beside the film, too
+    const Vec2 s = 2 * random.point<Float, 2>() - Vec2::Constant(Float(0.5)); // outside the film, too
     const Ray ray = camera.ray(s, tangent, u);
     const Float t = 1 + 3 * random.uniform<Float>();
     const auto seen = camera.sample_wi(ray.at(t), tangent, u);
@@ -79,7 +79,7 @@ TEST(ThinLens, SeesWhatItsRaysReach) {
   }
 }
 
-// Rays end in the far plane, which is flat, wherever on the film they begin.
+// Rays from all film points end in the far plane.
 TEST(ThinLens, NearAndFarPlanesCutRays) {
   for (const double radius : {0.0, 0.3}) {
     const ThinLens camera = facing({.radius = radius, .near = 2, .far = 7}, {1, 2, 3});
@@ -106,7 +106,8 @@ TEST(ThinLens, RaysOfOneFilmPointMeetInTheFocalPlane) {
       EXPECT_NEAR(ray.d.norm(), 1, 1e-6);
       second_moment += double((ray.o - camera.origin()).squaredNorm()) / (n * n);
     }
-  // Uniform on the lens: E[r^2] = R^2 / 2; a radius linear in u gives R^2 / 3 (course Introduction to Real-Time Ray Tracing, SIGGRAPH 2019, tutorial 8).
+  // Uniform on the lens: E[r^2] = R^2 / 2. A radius linear in u gives R^2 / 3 (course Introduction to Real-Time Ray
+  // Tracing, SIGGRAPH 2019, tutorial 8).
   EXPECT_NEAR(second_moment / 0.09, 0.5, 1e-3);
 }
 
@@ -131,7 +132,7 @@ TEST(ThinLens, RefusesNonsense) {
   EXPECT_THROW(ThinLens(Transform::scale({1, 0, 1})), mc::Error);
 }
 
-// What it would do with other frames is anyone's guess; files give axes to six digits or so.
+// Other frames are rejected. The tolerance allows for files with about six digits.
 TEST(ThinLens, TakesAFrameOfEqualOrthogonalAxesOnly) {
   const Transform turned = Transform::rotate({1, 2, 3}, 50);
   for (const Vec3d& fine :

@@ -8,8 +8,8 @@ namespace {
 
 using namespace render;
 
-// Means of normal-like samples, each picture with the variance of its means: the whole is as good as all samples
-// together, and its variance is what it says, to 5 standard deviations of 4000 chi-squares.
+// Means of normal-like samples with their variances. The average has the accuracy of all samples together, and its
+// variance is as stated. The bound is 5 standard deviations of 4000 chi-squares.
 TEST(Accumulate, CountsBySamples) {
   mc::Pcg random(1);
   const int pixels = 4000, n = 4, m = 12;

@@ -22,7 +22,7 @@ TEST(IntervalHalfWidths, AverageNeighbourVariances) {
   EXPECT_THROW(interval_half_widths(image, 1), mc::Error);
   const Image widths = interval_half_widths(image, 0.95);
   const double q = 2.306004135;                     // tables of Student's t, 8 degrees of freedom
-  EXPECT_NEAR(double(widths.at(0, 0)[0]), q, 1e-5); // it does not say how many estimates are behind it
+  EXPECT_NEAR(double(widths.at(0, 0)[0]), q, 1e-5); // the image does not state its number of estimates
   EXPECT_NEAR(double(widths.at(1, 0)[0]), q * std::sqrt(4.0 / 6), 1e-5);
   EXPECT_NEAR(double(widths.at(1, 1)[2]), q / 3, 1e-5);
   EXPECT_EQ(widths.at(0, 0)[1], 0);
@@ -34,7 +34,7 @@ TEST(IntervalHalfWidths, AverageNeighbourVariances) {
 TEST(IntervalHalfWidths, NoisyPixel_UsesItsOwnVariance) {
   Image image(5, 5);
   image.variance.assign(25, Spectrum::Ones());
-  image.variance[image.index(2, 2)] = Spectrum(2.5, 4.5, 1); // means of 7/6, 25/18, 1
+  image.variance[image.index(2, 2)] = Spectrum(2.5, 4.5, 1); // 3x3 means of 7/6, 25/18 and 1
   image.estimates = 4;
   Image widths = interval_half_widths(image, 0.95);
   const double q = 2.306004135, alone = 3.182446305; // 8 and 3 degrees of freedom
@@ -49,7 +49,7 @@ TEST(IntervalHalfWidths, NoisyPixel_UsesItsOwnVariance) {
   EXPECT_NEAR(double(widths.at(2, 2)[1]), 12.706204736 * std::sqrt(4.5), 1e-4); // 1 degree of freedom
 }
 
-// Lamps of less than a pixel before the dark: 40 pictures of 16 lamps, each a third of a pixel.
+// 16 lamps of a third of a pixel each before a black background, in 40 images.
 TEST(IntervalHalfWidths, SubpixelLights_CoverTruth) {
   SceneBuilder builder;
   const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
@@ -80,9 +80,9 @@ TEST(IntervalHalfWidths, SubpixelLights_CoverTruth) {
   EXPECT_GE(held / n, 0.93);
 }
 
-// Where glass casts caustics that paths from the camera hardly find, 40 pictures against one of 8192 samples a pixel:
-// 10240 intervals. They share pixels, whose truth errs by a twentieth of their error, so two per cent either way are
-// not told from 95 %. By its own variance a pixel is sure of too much, the defect that this is for.
+// Camera paths rarely find the caustics of this scene. 40 images have 10240 intervals around a truth of 8192 samples
+// per pixel. The images share the error of the truth, so the coverage may differ from 95 % by two per cent. Intervals
+// from a pixel's own variance alone cover too little: neighbours must share their variances.
 TEST(IntervalHalfWidths, Caustics_CoverTruth) {
   const SceneFile file = read_mitsuba(MC_SOURCE_DIR "/librender/scenes/book3-cornell-glass.xml");
   RenderOptions options;
@@ -99,7 +99,8 @@ TEST(IntervalHalfWidths, Caustics_CoverTruth) {
       const double off = double(image.pixels[i][1] - truth.pixels[i][1]);
       held += std::abs(off) <= double(widths.pixels[i][1]);
       below += off < -double(widths.pixels[i][1]);
-      held_alone += std::abs(off) <= 2.306004 * std::sqrt(double(image.variance[i][1])); // as wide for its variance
+      // interval of the same width factor from the own variance
+      held_alone += std::abs(off) <= 2.306004 * std::sqrt(double(image.variance[i][1]));
       ++n;
     }
   }

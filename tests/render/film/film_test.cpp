@@ -17,7 +17,7 @@ TEST(Film, MeansAndVariancesOfTheMean) {
   for (int px = 0; px < 2; ++px) {
     film.add(px, 0, 0, Eigen::Array3d(1, 2, 5), 1);
     film.add(px, 0, 1, Eigen::Array3d(6, 12, 10), 2);
-    film.add(px, 0, 1, Eigen::Array3d(3, 6, 5), 1); // in all a mean of 3, 6, 5
+    film.add(px, 0, 1, Eigen::Array3d(3, 6, 5), 1); // the mean of all samples is 3, 6, 5
   }
   const Image image = film.image();
   ASSERT_EQ(image.variance.size(), 2u);
@@ -33,8 +33,8 @@ TEST(Film, MeansAndVariancesOfTheMean) {
   EXPECT_NEAR(film.relative_errors().image.value, std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
 }
 
-// Sets of any sizes: their weighted mean and its variance are those of all samples together. 20,000 pixels, whose mean
-// and variance are known to 1 %.
+// Sets of different sizes: the weighted mean and its variance equal the values of all samples together. 20,000 pixels
+// determine mean and variance within 1 %.
 TEST(Film, SetsOfUnequalSizesAreUnbiased) {
   mc::Pcg random(3);
   mc::Moments means;
@@ -54,7 +54,7 @@ TEST(Film, SetsOfUnequalSizesAreUnbiased) {
   EXPECT_NEAR(variance, 1 / 12.0 / 13, 0.03 / 12 / 13);         // four times sqrt(2 / 3 / pixels)
 }
 
-// Two sets of a sample each, and light of as many paths as two samples of a pixel have: 3 for one set, 1 for the other.
+// Two sets of one sample each, and light paths for two samples per pixel: they add 3 to one set and 1 to the other.
 TEST(Film, LightSplats_AddMeanAndVariance) {
   Film film(2, 1, 2, {.has_light_paths = true});
   Film later(2, 1, 2, {.has_light_paths = true});
@@ -73,11 +73,12 @@ TEST(Film, LightSplats_AddMeanAndVariance) {
   EXPECT_NEAR(unlit.mean[0], 2, 1e-12);
   EXPECT_NEAR(unlit.variance[0], 1, 1e-12); // ((1 - 2)^2 + (3 - 2)^2) / 2
   EXPECT_EQ(unlit.light_variance[0], 0);
-  EXPECT_NEAR(lit.light_variance[0], 1, 1e-12); // of the sums 3 and 1
+  EXPECT_NEAR(lit.light_variance[0], 1, 1e-12); // from the sums 3 and 1
   EXPECT_NEAR(lit.variance[0], 2, 1e-12);
 }
 
-// A path whose light is all that varies decides the pixel, in any unit of light; of many alike none does.
+// A single light path contribution dominates a pixel that is otherwise constant, in any unit of light. Many equal
+// contributions do not.
 TEST(Film, LightSplat_CanDominatePixel) {
   for (const double unit : {1e-30, 1.0, 1e30})
     for (const int paths : {1, 2, 100}) {
@@ -101,8 +102,7 @@ TEST(Film, OneSetHasNoVariance) {
   EXPECT_EQ(film.relative_errors().image.value, mc::infinity<double>);
 }
 
-// What it says is what the pixels of its image are off by: dark ones relative to half the mean, bright ones to their
-// surroundings.
+// The relative error divides by the mean of the surroundings, and in dark regions by half of the image's mean.
 TEST(Film, ErrorIsRelativeToTheSurroundings) {
   Film film(20, 20, 2);
   for (int y = 0; y < 20; ++y)
@@ -111,14 +111,14 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
       film.add(x, y, 0, grey(radiance - off), 1);
       film.add(x, y, 1, grey(radiance + off), 1);
     }
-  // Mean 2; variance of the mean 0.25 in a fifth of the pixels.
+  // The mean is 2. A fifth of the pixels have a variance of the mean of 0.25.
   double sum = 0;
   for (int y = 0; y < 20; ++y) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     sum += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0));
   }
   EXPECT_NEAR(film.relative_errors().image.value, std::sqrt(sum / 400), 1e-12);
-  // Of the blocks, 16x16 from the corner, the upper right one holds only such pixels, the darkest.
+  // The upper right block contains only pixels with noise, and the darkest of them.
   double worst = 0;
   for (int y = 0; y < 16; ++y) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
@@ -127,7 +127,7 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
   EXPECT_NEAR(film.relative_errors().worst_block.value, std::sqrt(worst), 1e-12);
 }
 
-// Two values, a slope, a rare sample beside others, and none.
+// Two values, a slope, a rare sample among others, and equal samples.
 TEST(SampleSums, JumpIsZeroOnSlopes) {
   mc::Pcg random(8);
   for (int n = 2; n < 200; ++n) {
@@ -141,17 +141,17 @@ TEST(SampleSums, JumpIsZeroOnSlopes) {
     }
     EXPECT_TRUE(two.jump().isApprox(Eigen::Array3d(2, 0.25, 1e-20), 1e-9)) << n;
     EXPECT_TRUE((equal.jump() == 0).all()) << n;
-    if (n < 20) continue; // a few values are spread unevenly
+    if (n < 20) continue; // a few values are not spread evenly
     const Eigen::Array3d range = rare.channel_largest - rare.channel_smallest;
     EXPECT_TRUE(rare.jump().isApprox(range, 1e-12)) << n;
     EXPECT_NEAR(slope.jump()[0], std::sqrt(n - 1.0) / n, 1e-9);
-    EXPECT_EQ(slope.jump()[1], 0); // but for rounding all are equal
+    EXPECT_EQ(slope.jump()[1], 0); // equal up to rounding
     EXPECT_LE(slope.jump()[2], 0.37e20);
   }
 }
 
-// An edge across a pixel, of which every set of 16 points counts a whole number, at random places: what is stated is
-// at least the truth on average, and at most a third more.
+// An edge crosses each pixel at a random place, and every set of 16 points counts a whole number of samples beyond it.
+// The stated variance is at least the true variance on average, and at most a third larger.
 TEST(Film, AgreeingSets_KeepVarianceOfEdge) {
   mc::Pcg random(5);
   double stated = 0, truth = 0;
@@ -180,12 +180,12 @@ TEST(Film, AgreeingSets_KeepVarianceOfEdge) {
   EXPECT_GE(stated, truth);
   EXPECT_LE(stated, 1.33 * truth);
   EXPECT_GE(double(held) / pixels, 0.95);
-  EXPECT_GE(double(between) / pixels, 0.95); // the rest saw no edge
+  EXPECT_GE(double(between) / pixels, 0.95); // the other pixels contain no edge
 }
 
-// Where one pixel has the noise, four sets know its error to a third: a bound is as much larger than what they say as
-// chi-square with 3 degrees of freedom asks. But the mean of forty independent samples 2 off has a
-// variance of 4 / 39, known with forty degrees of freedom, and those of a pixel are no worse; of the sets it is 1/12.
+// If one pixel has all noise, four sets estimate its variance with 3 degrees of freedom. The bound then follows from
+// chi-square with 3 degrees of freedom. The second bound is from 40 samples that are 2 off the mean. Their mean has the
+// variance 4 / 39 with 40 degrees of freedom; the sets give 1 / 12.
 TEST(Film, ErrorBoundCoversVarianceUncertainty) {
   Film one(8, 8, 4), all(8, 8, 4);
   for (int y = 0; y < 8; ++y)
@@ -196,8 +196,9 @@ TEST(Film, ErrorBoundCoversVarianceUncertainty) {
         all.add(x, y, set, grey(2 + off), 1);
       }
   const RelativeError of_one = one.relative_errors().image, of_all = all.relative_errors().image;
-  EXPECT_NEAR(of_one.bound / of_one.value, std::sqrt(3 / 0.351846), 1e-5);  // tables of chi-square, 5 %
-  EXPECT_NEAR(of_all.bound / of_all.value, std::sqrt(318 / 277.687), 1e-5); // 5 * 64 - 2 degrees, as none is off
+  EXPECT_NEAR(of_one.bound / of_one.value, std::sqrt(3 / 0.351846), 1e-5); // tables of chi-square, 5 %
+  // 5 * 64 - 2 degrees of freedom, since no pixel has an error of 0
+  EXPECT_NEAR(of_all.bound / of_all.value, std::sqrt(318 / 277.687), 1e-5);
   for (int i = 0; i < 40; ++i) {
     SampleSums sample;
     sample.add(grey(i % 2 == 0 ? 0 : 4));
@@ -210,7 +211,7 @@ TEST(Film, ErrorBoundCoversVarianceUncertainty) {
 TEST(Film, CountsOutlierDominatedPixels) {
   Film film(4, 1, 1);
   const auto note = [&](int x, const std::vector<double>& luminances) {
-    for (const double y : luminances) { // merging says the same as adding
+    for (const double y : luminances) { // merging equals adding
       SampleSums one;
       one.add(grey(y));
       film.record_samples(x, 0, one, 3);

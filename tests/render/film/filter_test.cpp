@@ -9,7 +9,7 @@ namespace {
 
 using namespace render;
 
-/// Mean, variance and largest |x| of the first axis, by the midpoint rule.
+/// Mean, variance, largest |x| and covariance of the first axis, by the midpoint rule.
 struct Axis {
   double mean = 0, variance = 0, reach = 0, covariance = 0;
 };
@@ -34,7 +34,7 @@ TEST(Filter, VariancesAreThoseOfTheirShapes) {
   };
   for (const Row& row : {Row{"box", BoxFilter{Float(0.5)}, 1 / 12.0, 0.5, 1e-4},
                          {"wide box", BoxFilter{2}, 4 / 3.0, 2, 1e-4},
-                         // Square roots at the ends: the midpoint rule is off by O(n^-1.5).
+                         // The sample is a square root at the ends, so the midpoint rule has the error O(n^-1.5).
                          {"tent", TentFilter{1}, 1 / 6.0, 1, 5e-4},
                          // The midpoint rule cuts the tail of the logarithm: 2e-3 of the variance at n = 400.
                          {"gaussian", GaussianFilter{Float(0.75)}, 0.5625, 4, 2e-3},
@@ -69,11 +69,12 @@ struct SharedRow {
   const char* name;
   Filter filter;
   int reach;
-  double noise_area; ///< in closed form
+  double noise_area; ///< In closed form.
 };
 
-// The noise area of smallpt's filter: its profile is the mean of two tents of half width r = 1/2, r apart, which
-// overlap by the cubic B-spline over r, 2/3 at 0 and 1/6 at r: the integral of its square is (2/3 + 1/6) / (2 r).
+// Noise area of smallpt's filter. Its profile is the mean of two tents of half width r = 1/2 at distance r. Their
+// overlap is the cubic B-spline over r, 2/3 at 0 and 1/6 at r. So the integral of the squared profile is (2/3 + 1/6) /
+// (2 r).
 const std::array shared = {SharedRow{"box", BoxFilter(), 0, 1},
                            SharedRow{"wide box", BoxFilter(Float(1.5)), 1, 9},
                            SharedRow{"tent", TentFilter(), 1, 2.25},
@@ -94,7 +95,7 @@ TEST(SplatFilter, ReachAndWeightsMatchFilter) {
   EXPECT_THROW(SplatFilter(GaussianFilter(Float(1e6))), mc::Error);
 }
 
-// Profiles along both axes make the density; the squares of the weights are those of the profile, pixel by pixel.
+// The product of the profiles is the density, and squared weights are the mean squared profiles, pixel by pixel.
 TEST(SplatFilter, HasTheProfileOfItsFilter) {
   for (const SharedRow& row : shared) {
     const SplatFilter filter(row.filter);

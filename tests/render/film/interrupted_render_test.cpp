@@ -1,4 +1,4 @@
-// Pictures that were interrupted in their first round.
+// Renders that are cancelled in their first round.
 
 #include <render/light_tracing_pass.h>
 #include <render/render.h>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace render;
 
-constexpr std::uint64_t rows_before = 12; // the interrupt
+constexpr std::uint64_t rows_before = 12; // number of rows before the cancellation
 
 RenderOptions small() {
   RenderOptions options;
@@ -23,7 +23,7 @@ RenderOptions small() {
   return options;
 }
 
-// Interrupted as soon as there are the samples of so many rows.
+// Cancels the render after the samples of `rows_before` rows.
 RenderResult interrupted(const Scene& scene, RenderOptions options) {
   const auto width = static_cast<std::uint64_t>(options.crop ? options.crop->width : options.width),
              per_pixel = static_cast<std::uint64_t>(std::min(options.spp, 2));
@@ -35,7 +35,7 @@ RenderResult interrupted(const Scene& scene, RenderOptions options) {
   return render::render(scene, options);
 }
 
-/// A floor that fills the picture, lit by a small lamp: no two rows are alike.
+/// A floor under a small lamp fills the image, so that all rows differ.
 Scene lit_floor() {
   SceneBuilder builder;
   const BsdfId grey = builder.add(Lambert(Spectrum::Constant(Float(0.5))));
@@ -45,8 +45,8 @@ Scene lit_floor() {
   return builder.build();
 }
 
-// The rows that were rendered are those of the picture of two samples per pixel, bit for bit; the others repeat the
-// nearest, which is nowhere far.
+// Rendered rows have the same bits as a complete image of two samples per pixel. Missing rows repeat the nearest one,
+// which is never far.
 TEST(InterruptedRender, RepeatsTheNearestRow) {
   const Scene scene = lit_floor();
   RenderOptions plain = small(), tiles = plain, adaptive = plain, crop = plain;
@@ -90,7 +90,7 @@ TEST(InterruptedRender, RepeatsTheNearestRow) {
     }
 }
 
-// A large picture has many paths from the lights, of which the first row waits for a few alone.
+// A large image has many light paths, and the first row waits for a few of them only.
 TEST(InterruptedRender, FirstRowsPrecedeMostLightPaths) {
   SceneBuilder builder;
   const BsdfId grey = builder.add(Lambert(Spectrum::Constant(Float(0.5))));
@@ -109,10 +109,10 @@ TEST(InterruptedRender, FirstRowsPrecedeMostLightPaths) {
   const RenderResult cut = render::render(scene, options);
   EXPECT_EQ(cut.missing_rows, 1023);
   EXPECT_GE(cut.rays, LightTracingPass::batch_size);
-  EXPECT_LE(cut.rays, 2 * 1024 * 1024 / 8); // of the round's paths each has one at least
+  EXPECT_LE(cut.rays, 2 * 1024 * 1024 / 8); // each light path of the round takes at least one ray
 }
 
-// Splats lack those of the rows that were not rendered: of light that is the same everywhere nothing shows.
+// Splats of missing rows are absent. With constant light this must not show.
 TEST(InterruptedRender, SplatFilter_KeepsBrightness) {
   SceneBuilder builder;
   const Spectrum sky(Float(0.1), Float(0.2), Float(0.3));
@@ -130,7 +130,7 @@ TEST(InterruptedRender, SplatFilter_KeepsBrightness) {
     EXPECT_TRUE(cut.image.variance.empty());
     for (const Spectrum& p : cut.image.pixels) EXPECT_LE(double((p - sky).abs().maxCoeff()), 1e-6);
   }
-  options.spp = 1; // a set alone does not tell what it lacks
+  options.spp = 1; // a single set cannot correct for missing splats
   EXPECT_EQ(interrupted(scene, options).missing_rows, 64);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using namespace render;
 
-// A film whose pixels have the radiance 1, a relative standard error of `noise(x, y)` per sample and `rays(x, y)` rays.
+// A film of radiance 1 with a relative standard error of `noise(x, y)` per sample and `rays(x, y)` rays per sample.
 template <class Noise, class Rays> Film film_of(int width, int height, Noise&& noise, Rays&& rays) {
   Film film(width, height, 2);
   for (int y = 0; y < height; ++y)
@@ -27,7 +27,7 @@ double mean(const std::vector<float>& rates) {
   return std::accumulate(rates.begin(), rates.end(), 0.0) / double(rates.size());
 }
 
-// Left and right half differ: far from where they meet rates are as the formula says.
+// The left and right halves differ. Far from the boundary the rates follow the formula.
 TEST(SamplingPlan, RatesFollowErrorAndCost) {
   const auto noise = [](int x, int) { return x < 24 ? 0.1 : 0.3; };
   const auto rays = [](int x, int) { return x < 24 ? 1 : 4; };
@@ -46,7 +46,7 @@ TEST(SamplingPlan, RatesFollowErrorAndCost) {
   EXPECT_EQ(SamplingPlan().samples(quiet, 7), 7u);
 }
 
-// All of a tile have one rate, which only tiles beside it tell; tiles may be cut by the film's edges.
+// All pixels of a tile have one rate, which depends on neighbouring tiles only. The edges of the film may cut tiles.
 TEST(SamplingPlan, TileRatesFollowNeighbourTiles) {
   const auto rays = [](int, int) { return 3; };
   std::vector<double> noise(39 * 41);
@@ -59,7 +59,7 @@ TEST(SamplingPlan, TileRatesFollowNeighbourTiles) {
   for (int y = 0; y < 41; ++y)
     for (int x = 0; x < 39; ++x) EXPECT_EQ(rate(before, x, y), rate(before, x - (x > 0 && x % 2 == 0), y - y % 2));
   EXPECT_GT(rate(before, 30, 20), 5 * rate(before, 3, 20));
-  noise[39 * 17 + 21] = 3; // of the tile of columns 21, 22 and rows 16, 17
+  noise[39 * 17 + 21] = 3; // in the tile of columns 21, 22 and rows 16, 17
   const SamplingPlan after = plan();
   const auto ratio = [&](int x, int y) { return double(rate(after, x, y)) / double(rate(before, x, y)); };
   for (const int x : {21, 22})
@@ -68,7 +68,7 @@ TEST(SamplingPlan, TileRatesFollowNeighbourTiles) {
   EXPECT_GT(ratio(20, 15), 1.05 * ratio(3, 20));
 }
 
-// A pixel's own samples change its rate only by its share in the mean of all.
+// A pixel's own samples change its rate only by its share in the mean of all rates.
 TEST(SamplingPlan, RateFollowsNeighboursOnly) {
   const auto rays = [](int, int) { return 3; };
   std::vector<double> noise(40 * 40);
@@ -84,7 +84,8 @@ TEST(SamplingPlan, RateFollowsNeighboursOnly) {
   EXPECT_NEAR(ratio(far), 1, 0.02);
 }
 
-// Nor does its own radiance, though that of the pixels about stands under the neighbours' variance.
+// A pixel's own radiance does not change its rate either, although the neighbours' variances are relative to the
+// radiance around them.
 TEST(SamplingPlan, RateIgnoresPixelsOwnRadiance) {
   const auto plan = [](double radiance) {
     Film film(40, 40, 2);
@@ -99,11 +100,11 @@ TEST(SamplingPlan, RateIgnoresPixelsOwnRadiance) {
   const std::vector<float> before = plan(0.3), after = plan(0.01);
   const std::size_t pixel = 17 * 40 + 21;
   const auto ratio = [&](std::size_t i) { return double(after[i]) / double(before[i]); };
-  EXPECT_NEAR(ratio(pixel), ratio(pixel + 12), 1e-3);    // by the mean of all and the sum of the rates
-  EXPECT_LT(ratio(pixel + 1), 0.99 * ratio(pixel + 12)); // of its neighbours it does
+  EXPECT_NEAR(ratio(pixel), ratio(pixel + 12), 1e-3); // the mean of the image and the sum of the rates change a little
+  EXPECT_LT(ratio(pixel + 1), 0.99 * ratio(pixel + 12)); // the rates of the neighbours change
 }
 
-// Rare bright samples are not divided by themselves, and a lamp does not hide what is noisy beside it.
+// Rare bright samples are not divided by themselves, and a lamp does not hide the noise of its neighbours.
 TEST(SamplingPlan, BrightPixels_KeepNeighbourRates) {
   const auto rates = [](auto&& radiance, auto&& noise) {
     Film film(40, 1, 2);
@@ -117,13 +118,13 @@ TEST(SamplingPlan, BrightPixels_KeepNeighbourRates) {
   const auto bright = [](int x) { return x > 20 && x % 2 == 0; };
   const std::vector<float> rare =
       rates([&](int x) { return bright(x) ? 4 : 1; }, [&](int x) { return bright(x) ? 0.5 : 0.05; });
-  EXPECT_GT(rare[33], 6 * rare[5]); // 4, were they divided by their own squares
+  EXPECT_GT(rare[33], 6 * rare[5]); // 4 if samples were divided by their own squares
   const std::vector<float> lamp =
       rates([](int x) { return x == 20 ? 100 : 1; }, [](int x) { return x == 20 ? 0.01 : 0.5; });
-  EXPECT_NEAR(lamp[18] / lamp[2], 1, 0.1); // 0.6, were the noise of pixel 19 divided by the light of 20
+  EXPECT_NEAR(lamp[18] / lamp[2], 1, 0.1); // 0.6 if the noise of pixel 19 were divided by the light of pixel 20
 }
 
-// As many paths from the lights as make variance times rays least; from 1 to 4.
+// The number of light paths minimizes variance times rays, within [1, 4].
 TEST(SamplingPlan, LightPathScaleFollowsVariance) {
   const auto plan = [](double noise, std::uint64_t rays) {
     Film film(8, 8, 2, {.has_light_paths = true});
@@ -138,7 +139,7 @@ TEST(SamplingPlan, LightPathScaleFollowsVariance) {
     film.add_light_rays(64 * 16 * rays);
     EXPECT_NEAR(film.light_rays(), 64 * double(rays), 1e-9);
     const SamplingPlan p = adaptive_plan(film, 0.25);
-    // The largest that a path gave is half of what a set has, and its square is in the variance of pixels.
+    // The largest contribution of a path is half of a set's sum, and its square is in the variance of pixels.
     const double light_variance = film.estimate(3, 3).light_variance[0],
                  of_samples = film.estimate(3, 3).variance[0] - light_variance;
     EXPECT_NEAR(p.light_path_scale, std::clamp(std::sqrt(light_variance * 5 / (of_samples * double(rays))), 1.0, 4.0),
@@ -156,7 +157,7 @@ TEST(SamplingPlan, LightPathScaleFollowsVariance) {
             1);
 }
 
-// One noisy pixel, of which its neighbours know nothing: even spending is best for all the others that it makes noisy.
+// Isolated noisy pixels, which neighbours do not predict: even sampling is best for all other pixels.
 TEST(SamplingPlan, UncorrelatedNeighbours_GiveUniformRates) {
   mc::Pcg random(2);
   std::vector<double> noise(30 * 30);

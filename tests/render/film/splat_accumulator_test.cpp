@@ -14,7 +14,7 @@ using namespace render;
 struct SplatRow {
   const char* name;
   Filter filter;
-  double variance; ///< along an axis
+  double variance; ///< Variance along one axis.
 };
 
 const std::array splat_rows = {SplatRow{"wide box", BoxFilter(Float(1.5)), 0.75},
@@ -24,8 +24,8 @@ const std::array splat_rows = {SplatRow{"wide box", BoxFilter(Float(1.5)), 0.75}
                                SplatRow{"wide gaussian", GaussianFilter(1), 1},
                                SplatRow{"smallpt", SubpixelTentFilter(), 0.25 / 6 + 0.0625}};
 
-/// Splats of `n` samples in each set and square about the pixel of a film of one, where radiance is
-/// (1 + x^2 + y, 5, x) at its centre's distance (x, y); the squares reach one further than they need to.
+/// Splats onto a film of one pixel, from `n` samples in each set and square. The radiance is (1 + x^2 + y, 5, x) at the
+/// distance (x, y) from the pixel's centre. The squares extend one pixel beyond the filter's reach.
 PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
   Film film(1, 1, 4, {.splat = filter});
   SplatAccumulator splat(filter);
@@ -44,8 +44,9 @@ PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
   return film.estimate(0, 0);
 }
 
-// The filtered picture, by every filter, with an error bar that holds; what is constant has no noise at all. 3,000
-// pixels: alpha is 0.006 % for each mean; variances are known to 3 %, the bound is five times that.
+// Splats give the filtered image without bias for every filter, with a valid error bar; a constant channel has no
+// noise. With 3,000 pixels alpha is 0.006 % for each mean. The variances are accurate to 3 %, and their bound is five
+// times that.
 TEST(SplatAccumulator, PixelsAreFilteredWithoutBias) {
   mc::Pcg random(8);
   for (const SplatRow& row : splat_rows) {
@@ -67,7 +68,7 @@ TEST(SplatAccumulator, PixelsAreFilteredWithoutBias) {
   }
 }
 
-// With one set alone, which nothing tells what is constant, too.
+// A single set is unbiased, too, although no other set corrects its weights.
 TEST(SplatAccumulator, SingleSet_IsUnbiased) {
   mc::Pcg random(4);
   const SplatFilter filter{Filter(GaussianFilter())};

@@ -12,7 +12,7 @@ constexpr std::array<ToneCurve, 3> all = {ToneCurve::clamp, ToneCurve::reinhard,
 
 Spectrum gray(double x) { return Spectrum::Constant(Float(x)); }
 
-// From black, which stays black, to white, which stays white, and nothing brighter becomes darker.
+// The curves are monotone; black stays black and white stays white.
 TEST(ToneMapping, CurvesRiseFromBlackToWhite) {
   for (const ToneCurve curve : all) {
     EXPECT_TRUE((tone_map(gray(0), {curve}) == 0).all());
@@ -39,8 +39,8 @@ TEST(ToneMapping, ReinhardKeepsTheColour) {
   }
 }
 
-// The points that [Hable10]'s formula has by its constants, in exact fractions: f(x) = (x (.15 x + .05) + .004) /
-// (x (.15 x + .5) + .06) - 1 / 15, shown f(2 x) / f(11.2).
+// Values of [Hable10]'s formula from its constants, in exact fractions: f(2 x) / f(11.2) with f(x) = (x (.15 x + .05) +
+// .004) / (x (.15 x + .5) + .06) - 1 / 15.
 TEST(ToneMapping, FilmicPoints) {
   EXPECT_NEAR(tone_map(gray(5.6), {ToneCurve::filmic})[0], 1, 1e-7);
   EXPECT_LT(tone_map(gray(5.5), {ToneCurve::filmic})[0], 1);
@@ -54,7 +54,7 @@ TEST(ToneMapping, ExposureIsInStops) {
     EXPECT_NEAR(tone_map(gray(0.1), {curve, 1.5})[0], tone_map(gray(0.1 * std::exp2(1.5)), {curve})[0], 1e-6);
 }
 
-// However bright the scene is, the picture is the same, and black parts decide nothing.
+// The result does not depend on the unit of light, and black parts are ignored.
 TEST(ToneMapping, AutoExposureFollowsTheScene) {
   mc::Pcg random(2);
   Image image(16, 16);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace render;
 
-// A floor under a lamp, a glass ball and a guide, none of which hides another.
+// A floor under a lamp, a glass ball and an importance target. None of these occludes another.
 Scene small_scene() {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert()), glass = builder.add(Dielectric());
@@ -28,7 +28,7 @@ SurfacePoint of_floor() {
   return point;
 }
 
-// Half mirror, half Lambert; the mirror says it enters a denser medium.
+// Half mirror, half Lambert. The mirror reports entry into a denser medium.
 class HalfMirror {
  public:
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
@@ -52,9 +52,9 @@ class HalfMirror {
   Lambert base_;
 };
 
-// Of n choices: the share that are no delta lobe's, against the integral of pdf() over the sphere. The share's standard
-// error is below .5 / sqrt(n), the integral's below that of the balls' densities; 6 of both together. Every direction
-// that is no delta lobe's has the density that pdf() says, up to the rounding of a direction on an outline.
+// Compares the share of samples without delta lobes with the integral of pdf() over the sphere. The standard error of
+// the share is below .5 / sqrt(n), and the error of the integral is below the error of the balls' densities. The bound
+// is 6 of both together. Each sample without a delta lobe has the density pdf(), up to rounding at outlines.
 template <class B> void expect_consistent(const B& bsdf, const Strategy& strategy, double delta_share) {
   const Scene scene = small_scene();
   const DirectionMixture directions(scene, strategy);
@@ -98,7 +98,7 @@ TEST(DirectionMixture, DeltaLobe_IsSampledByBsdfOnly) {
   }
 }
 
-// Followed or aimed: the lamps lie above a floor of ground glass, seen from there and from within the glass.
+// BSDF samples and target samples: the lamps lie above a floor of rough glass, which is sampled from both sides.
 TEST(DirectionMixture, TransmittedSample_HasTransmittedEta) {
   const Scene scene = small_scene();
   const RoughDielectric glass(Float(1.5), Float(0.3));
@@ -124,7 +124,7 @@ TEST(DirectionMixture, TransmittedSample_HasTransmittedEta) {
   }
 }
 
-// Of two balls of glass the one that a lamp reaches into is aimed at, and none where the lamp stands apart.
+// Only the glass ball that overlaps the lamp is a target; there is none if the lamp stands apart.
 TEST(DirectionMixture, EnclosingSpeculars_ContainLights) {
   const Strategy shades = {"", GuidingTarget::enclosing_speculars, Float(0.5), DirectLighting::mis};
   for (const double x : {3.0, 3.9, 5.0}) {
@@ -148,9 +148,9 @@ TEST(DirectionMixture, EnclosingSpeculars_ContainLights) {
   }
 }
 
-// Rounding carried rays past the outline of a tiny lamp: of those 2e-5 wide three in a thousand, and so much light.
-// The tree finds spheres by the same arithmetic as their density, but triangles by floats at first: of four million
-// rays 1.87e-4 missed. Binomial, of 100,000: 3.6 deviations more are 34, alpha = 2e-4.
+// Rounding makes rays miss the outline of a tiny lamp; each miss loses light. Spheres and their densities use the same
+// arithmetic, so no ray misses. Triangles are first tested in float, and a share of 1.87e-4 of the rays misses. The
+// bound of 34 misses in 100,000 rays is 3.6 binomial standard deviations above the mean: alpha = 2e-4.
 TEST(DirectionMixture, TinyAreaLights_AreHitBySampledRays) {
   const double half = 1e-5;
   const Vec3d place(0.4, 0.8, -0.3);

@@ -15,8 +15,7 @@ using namespace render;
 
 const Strategy& mis_lt = strategy_from("mis+lt");
 
-/// A lamp above a floor that a camera looks down at, a wall that it does not see, and a ball beside what it sees, which
-/// makes light paths pay.
+/// A camera looks down at a floor under a lamp. A wall, and a ball that makes light paths pay, are outside its view.
 struct Room {
   bool two_sided = false, glass = true, lamp = true, sky = false;
   std::optional<Light> delta = {};
@@ -60,8 +59,8 @@ TEST(LightTracer, IsCreatedOnlyForCausticScenes) {
   EXPECT_EQ(complete_strategies(Room{.glass = false}.build()).size(), strategies.size() - 1);
 }
 
-/// Parallel light from straight above onto cubes of glass in a row, with corners on spheres of radius sqrt(3) / 10,
-/// from the eighth on sqrt(3) / 20.
+/// Parallel light from above onto a row of glass cubes. Their corners lie on spheres of radius sqrt(3) / 10, from the
+/// eighth cube on sqrt(3) / 20.
 Scene row_of_cubes(int count) {
   SceneBuilder builder;
   const BsdfId glass = builder.add(Dielectric());
@@ -74,8 +73,8 @@ Scene row_of_cubes(int count) {
   return builder.build();
 }
 
-// Up to eight cubes have a ball each. Of more the seven largest have, and all others one, whose disk is a circle about
-// their row.
+// Up to eight cubes have a ball each. With more cubes the seven largest have a ball each, and one ball encloses the
+// others; its disk is a circle about their row.
 TEST(LightTracer, EmissionIsAimedAtCausticBounds) {
   for (const int count : {1, 8, 12}) {
     const Scene scene = row_of_cubes(count);
@@ -95,7 +94,7 @@ TEST(LightTracer, EmissionIsAimedAtCausticBounds) {
   }
 }
 
-// Nothing aims at glass that the lamp reaches into: all paths follow the cosine, where else a fifth do.
+// Light paths do not aim at glass that the lamp overlaps: all follow the cosine. Otherwise a fifth follows it.
 TEST(LightTracer, EnclosedLight_IsNotGuidedToItsEnclosure) {
   for (const bool inside : {false, true}) {
     SceneBuilder builder;
@@ -127,9 +126,9 @@ TEST(LightTracer, IsCreatedForGlossyMetalOnly) {
   }
 }
 
-// The density of starts, over the lamp and all directions, has the integral rate(): by 1e5 uniform points and
-// directions, four standard errors. From the side of the lamp that looks away from the ball, the four in five that aim
-// at it go nowhere.
+// The density of emission integrates to light_path_rate() over the lamp and all directions. The integral is estimated
+// from 1e5 uniform points and directions, with a bound of four standard errors. On the side of the lamp away from the
+// ball, the four fifths of the paths that aim at the ball are lost.
 TEST(LightTracer, AreaEmissionPdf_IntegratesToRate) {
   for (const bool two_sided : {false, true}) {
     const Scene scene = Room{.two_sided = two_sided}.build();
@@ -148,8 +147,7 @@ TEST(LightTracer, AreaEmissionPdf_IntegratesToRate) {
   }
 }
 
-// The same of a point, over all directions, and of parallel light, over lines within a disk across it that covers the
-// ball.
+// The same for a point light over all directions, and for parallel light over lines within a disk that covers the ball.
 TEST(LightTracer, DeltaEmissionPdf_IntegratesToRate) {
   const Vec3 ball(-1.5, Float(1.2), 1.5), at(1, 2, 0), wi = Vec3(1, 2, 3).normalized();
   const Scene point = Room{.lamp = false, .delta = PointLight(at.cast<double>(), Spectrum::Ones())}.build(),
@@ -171,7 +169,7 @@ TEST(LightTracer, DeltaEmissionPdf_IntegratesToRate) {
   EXPECT_LE(of_point.std_error() + of_sun.std_error(), 0.02 * from_point->light_path_rate());
 }
 
-// The same of a sky, over all directions and lines within a disk across each that covers the ball.
+// The same for a sky, over all directions and lines within a disk that covers the ball.
 TEST(LightTracer, EnvironmentEmissionPdf_IntegratesToRate) {
   const Scene scene = Room{.lamp = false, .sky = true}.build();
   const auto paths = LightTracer::create(scene, mis_lt, 1);
@@ -189,8 +187,8 @@ TEST(LightTracer, EnvironmentEmissionPdf_IntegratesToRate) {
   EXPECT_LE(moments.std_error(), 0.01 * paths->light_path_rate());
 }
 
-// Of paths of up to three edges, over a film of one pixel: their light, and what is left for paths from the camera, is
-// what these find alone. With a hundred paths from the light for each both ways weigh, so each gives a part of it only.
+// Light paths and camera paths of up to three edges add up to `mis` alone, over a film of one pixel. A hundred light
+// paths for each camera path give both a visible share.
 void expect_both_to_make_what_one_does(const Scene& scene) {
   Strategy many = mis_lt;
   many.light_path_rate = 100;
@@ -223,8 +221,8 @@ TEST(LightTracer, PlusCameraPaths_MatchesMis) {
   expect_both_to_make_what_one_does(Room{.lamp = false, .delta = PointLight({1, 2, 0}, Spectrum::Ones())}.build());
 }
 
-// What a lamp sends to the camera by way of one surface is found by its points at hardly any error, which the number of
-// paths that happen to arrive in a pixel would add.
+// Light from a lamp by way of one surface is left to next-event estimation. Light paths would add the noise of their
+// random number in each pixel.
 TEST(LightTracer, SkipsPathsOfTwoEdges) {
   const Scene scene = Room().build();
   const auto paths = LightTracer::create(scene, mis_lt, 1);
@@ -242,8 +240,8 @@ TEST(LightTracer, SkipsPathsOfTwoEdges) {
   EXPECT_GT(longer, 300);
 }
 
-/// What paths from the lights of a picture of one pixel bring, by way of a ball of glass in parallel light on a floor,
-/// beside a black plane below of half the width `beside`.
+/// Light path contributions to an image of one pixel: parallel light falls through a glass ball onto a floor, beside a
+/// black plane below of half width `beside`.
 mc::Moments cast_by_glass(double beside) {
   SceneBuilder builder;
   const auto plane = [](double y, double size) {
@@ -268,11 +266,11 @@ mc::Moments cast_by_glass(double beside) {
   return moments;
 }
 
-// A float far away, where parallel light once started before a huge ground, tells little of a ball.
+// Light paths must not start far away beside a huge ground: floats there resolve the ball poorly.
 TEST(LightTracer, DirectionalCaustics_SurviveHugeGround) {
   const mc::Moments small = cast_by_glass(3), huge = cast_by_glass(1e8);
   EXPECT_LE(small.std_error(), 0.02 * small.mean());
-  EXPECT_NEAR(huge.mean(), small.mean(), 1e-3 * small.mean()); // of the same random numbers
+  EXPECT_NEAR(huge.mean(), small.mean(), 1e-3 * small.mean()); // both use the same random numbers
 }
 
 } // namespace

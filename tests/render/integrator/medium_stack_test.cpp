@@ -7,13 +7,13 @@ namespace {
 
 using namespace render;
 
-/// Concentric balls, each with a medium of its own; masks and a wall without a medium between them.
+/// Concentric balls with a medium each; between them are masks, and a wall without a medium.
 struct Onion {
   std::vector<HomogeneousMedium> media;
   Scene scene;
 
   explicit Onion(const std::vector<double>& radii) : scene(build(radii)) {}
-  // Which ball's medium it is, -1 for none.
+  // Index of the ball with this medium; -1 for none.
   int ball(const HomogeneousMedium* m) const {
     for (std::size_t i = 0; i < scene.surfaces().size(); ++i)
       if (m && scene.surfaces()[i].interior && m == &*scene.surfaces()[i].interior) return static_cast<int>(i);
@@ -40,7 +40,7 @@ TEST(InitialMedia, FindsCurrentAndOuterMedium) {
     int here, around;
   };
   for (const auto& [z, here, around] : {Row{0.5, 0, 1}, Row{1.5, 1, 2}, Row{2.2, 2, -1}, Row{4, -1, -1}})
-    for (const double towards : {1.0, -1.0}) { // through what lies ahead, or not
+    for (const double towards : {1.0, -1.0}) { // toward the balls, and away from them
       const MediumStack media = at(z, towards);
       EXPECT_EQ(onion.ball(media.current), here) << z << " " << towards;
       EXPECT_EQ(onion.ball(media.outer), around) << z << " " << towards;

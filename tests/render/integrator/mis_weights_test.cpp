@@ -10,10 +10,11 @@ namespace {
 
 using namespace render;
 
-/// Vertices of a path, and the density of every direction at each, by paths from either end.
+/// Vertices of a path, with the densities of all directions by paths from either end.
 struct Chain {
   std::vector<Vec3d> points, normals;
-  std::vector<double> onward, back; ///< [1/sr]; onward[i] of the edge from i to i + 1, back[i] of that from i to i - 1
+  /// [1/sr]; onward[i] for the edge from i to i + 1, back[i] for the edge from i to i - 1
+  std::vector<double> onward, back;
 
   Chain(mc::Pcg& random, std::size_t n) {
     const auto number = [&] { return std::exp(4 * random.uniform<double>() - 2); };
@@ -28,11 +29,11 @@ struct Chain {
     return std::abs(normals[i].dot((points[j] - points[i]).normalized()));
   }
   double distance2(std::size_t i, std::size_t j) const { return (points[j] - points[i]).squaredNorm(); }
-  // Density per area at j of the direction from i with the density pdf.
+  // Density per area at vertex j of a direction from vertex i with density pdf.
   double per_area(double pdf, std::size_t i, std::size_t j) const { return pdf * cosine(j, i) / distance2(i, j); }
 };
 
-// The products that the definition says, of paths of up to nine vertices.
+// The ratio equals the product of its definition, for paths of up to nine vertices.
 TEST(PartialMisWeight, EqualsRatioOfPathPdfs) {
   mc::Pcg random(4);
   for (int run = 0; run < 200; ++run) {
@@ -53,7 +54,7 @@ TEST(PartialMisWeight, EqualsRatioOfPathPdfs) {
   }
 }
 
-// Others are connected to a camera at the first vertex: there is no direction back to it that they choose.
+// Light paths connect to the camera at the first vertex, so no direction back to it is sampled.
 TEST(PartialMisWeight, FirstVertexFromCamera_HasNoReversePdf) {
   PartialMisWeight partial_mis(1, 3, 0);
   partial_mis.add_vertex_from_point(0.5, 4);
@@ -61,7 +62,7 @@ TEST(PartialMisWeight, FirstVertexFromCamera_HasNoReversePdf) {
   EXPECT_EQ(partial_mis.squared_ratio(0), 0);
 }
 
-// Points that rounding makes one, and edges along a surface, have odds all the same.
+// Zero-length edges and grazing edges give ratios that are not NaN.
 TEST(PartialMisWeight, ZeroLengthEdges_StayFinite) {
   for (const double cosine : {0.0, 1.0})
     for (const double distance2 : {0.0, 1e-90, 1e60}) {
@@ -71,8 +72,8 @@ TEST(PartialMisWeight, ZeroLengthEdges_StayFinite) {
     }
 }
 
-// Of smooth glass the densities of both directions are 1, and those of the solid angles that they stand for are not:
-// thin cones through it keep n^2 cos domega, as the lobe's own weights say.
+// Both directions through smooth glass have density 1, but their solid angles differ. n^2 cos domega is constant along
+// thin cones, as the weights of the lobe state.
 TEST(PartialMisWeight, NearSpecularLobe_ReversePdfs) {
   mc::Pcg random(6);
   const Dielectric glass(Float(1.5));

@@ -11,13 +11,13 @@
 
 #include "support/traced.h"
 
-// Pictures known in closed form, traced by every strategy. Each comparison is a t-test at alpha = 1e-5; there are about
-// fifty, so right code fails for one seed in 2000, and the seeds are fixed.
+// Radiances with closed forms, traced by every strategy. There are about 50 t-tests at alpha = 1e-5, so correct code
+// fails for one seed in 2000. The seeds are fixed.
 namespace {
 
 using namespace render;
 
-// All but `light`.
+// All strategies but `light`.
 std::vector<Strategy> unbiased_strategies() {
   std::vector<Strategy> found(strategies.begin(), strategies.end());
   std::erase_if(found, [](const Strategy& s) { return s.name == "light"; });
@@ -31,7 +31,7 @@ Shape horizontal(double cx, double y, double cz, double half_x, double half_z, b
                                                     Vec3d(0, up ? 1 : -1, 0), Vec3d(cx, y, cz)));
 }
 
-// A mean that never varies must be right to float rounding; any other is tested.
+// Constant samples must equal the mean up to float rounding; other samples pass a t-test.
 void expect_mean(const mc::Moments& m, double value, const std::string& what, double rounding = 1e-5) {
   if (m.std_error() <= rounding * std::abs(value) / 10) {
     EXPECT_NEAR(m.mean(), value, rounding * std::abs(value)) << what;
@@ -43,8 +43,7 @@ void expect_mean(const mc::Moments& m, double value, const std::string& what, do
 
 std::string word(const Strategy& s) { return std::string(s.name); }
 
-// Inside a closed white sphere that shines with e and reflects a, radiance is e / (1 - a) everywhere, in however many
-// ways paths go on.
+// Inside a closed sphere of emission e and albedo a, radiance is e / (1 - a) everywhere, for any number of branches.
 TEST(PathIntegrator, ClosedFurnace) {
   SceneBuilder builder;
   const BsdfId wall = builder.add(Lambert(Spectrum(Float(0.2), Float(0.5), Float(0.8))));
@@ -58,7 +57,7 @@ TEST(PathIntegrator, ClosedFurnace) {
     expect_mean(support::traced(scene, ray, {unbiased[0], -1, {}, branches}, 5'000), 2.5, "branches");
 }
 
-// Instead of light, the shading normal as a colour; beyond it the sky.
+// The shading normal as a colour instead of radiance; without a hit, the sky.
 TEST(PathIntegrator, ShowsNormals) {
   SceneBuilder builder;
   builder.add(Light(ConstantBackground(Spectrum::Constant(Float(0.3)))));
@@ -73,15 +72,15 @@ TEST(PathIntegrator, ShowsNormals) {
   }
 }
 
-// An open sphere or plate in a constant sky of 1: what reflects or refracts all of it is invisible.
+// A lossless sphere or plate in a constant sky of 1 is invisible.
 TEST(PathIntegrator, WhiteFurnace_HidesObjects) {
   for (const Bsdf& bsdf : {Bsdf(Lambert(Spectrum::Ones())), Bsdf(FuzzyMetal(Spectrum::Ones())), Bsdf(Dielectric())}) {
     SceneBuilder builder;
     builder.add(Light(ConstantBackground(Spectrum::Ones())));
     builder.add(Sphere(Vec3d::Zero(), 1), {builder.add(bsdf)});
     const Scene scene = builder.build();
-    // Glass varies only where roulette ends one of the 2 in 1000 paths that reflect twice inside, too rarely for a
-    // t-test: the standard error is sqrt(.002 * .05 / n) = 7e-5.
+    // Glass varies only if roulette ends a path. 2 in 1000 paths reflect twice inside, too few for a t-test. The
+    // standard error is sqrt(.002 * .05 / n) = 7e-5.
     for (const Strategy& s : unbiased) {
       const mc::Moments m = support::traced(scene, {Vec3(Float(0.3), Float(0.4), 3), Vec3(0, 0, -1)}, {s}, 20'000);
       if (bsdf.is_delta()) EXPECT_NEAR(m.mean(), 1, 5e-4) << word(s);
@@ -90,7 +89,7 @@ TEST(PathIntegrator, WhiteFurnace_HidesObjects) {
   }
 }
 
-// The Cornell light over the middle of the floor: form factor 0.013945466356 (scene-catalogue G).
+// The Cornell light above the middle of the floor: the form factor of parallel rectangles is 0.013945466356.
 Scene cornell_light() {
   SceneBuilder builder;
   const BsdfId white = builder.add(Lambert(Spectrum::Constant(Float(0.73))));
@@ -119,7 +118,7 @@ TEST(PathIntegrator, LightsAreDarkFromBehind) {
   }
 }
 
-// A sphere of radius r and radiance L at height h over a plane gives irradiance pi L r^2 / h^2 below it.
+// A sphere of radius r and radiance L at height h above a plane causes the irradiance pi L r^2 / h^2 below it.
 TEST(PathIntegrator, SphereOverLambertPlane) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert());
@@ -131,14 +130,15 @@ TEST(PathIntegrator, SphereOverLambertPlane) {
     expect_mean(support::traced(scene, down, {s, 2}, 100'000), 0.5 * 3 * 1.5 * 1.5 / 16, word(s));
 }
 
-// Light met after a delta lobe counts fully in every strategy and once (both bugs are in the next-event estimation of CMU 15-468, 2021).
+// Emission after a delta lobe counts fully and once in every strategy. The next-event estimation of CMU 15-468 (2021)
+// had the opposite bugs.
 TEST(PathIntegrator, LightsInMirrorsAndThroughGlass) {
   const Emission light{Spectrum::Constant(3)};
   SceneBuilder builder;
   builder.add(horizontal(0, 0, 0, 5, 5, true), {builder.add(FuzzyMetal(Spectrum::Constant(Float(0.8))))});
   builder.add(horizontal(0, 5, 0, 1, 1, false), {builder.add(Lambert(Spectrum::Zero())), light});
   const Scene mirror = builder.build();
-  // A plate of glass seen straight on passes (1 - R) / (1 + R) with R = .04, all inner reflections counted.
+  // At normal incidence a glass plate transmits (1 - R) / (1 + R) with R = .04, including all inner reflections.
   const Transform flat = Transform::columns(Vec3d(2, 0, 0), Vec3d(0, 0.5, 0), Vec3d(0, 0, 2), Vec3d(0, 2, 0));
   builder.add(TriangleMesh::box(flat), {builder.add(Dielectric())});
   builder.add(horizontal(0, 5, 0, 1, 1, false), {builder.add(Lambert(Spectrum::Zero())), light});
@@ -150,7 +150,7 @@ TEST(PathIntegrator, LightsInMirrorsAndThroughGlass) {
   }
 }
 
-// Ground glass sends light to both sides, and so must every strategy: 5 standard errors, alpha = 6e-7.
+// Rough glass scatters to both sides. Each strategy agrees with `bsdf` within 5 standard errors: alpha = 6e-7.
 TEST(PathIntegrator, EveryStrategySeesThroughGroundGlass) {
   SceneBuilder builder;
   builder.add(Light(ConstantBackground(Spectrum::Ones())));
@@ -159,16 +159,16 @@ TEST(PathIntegrator, EveryStrategySeesThroughGroundGlass) {
   const Scene scene = builder.build();
   const Ray ray{Vec3(1, 2, 0), Vec3(Float(-0.5), -1, 0).normalized()};
   const mc::Moments followed = support::traced(scene, ray, {strategy_from("bsdf"), 2}, 100'000);
-  EXPECT_GT(followed.mean(), 0.3); // radiance falls by 1.5^2 on its way through
+  EXPECT_GT(followed.mean(), 0.3); // refraction divides radiance by 1.5^2
   for (const Strategy& s : unbiased) {
     const mc::Moments m = support::traced(scene, ray, {s, 2}, 100'000);
     EXPECT_LE(std::abs(m.mean() - followed.mean()), 5 * std::hypot(m.std_error(), followed.std_error())) << word(s);
   }
 }
 
-// Light that goes round in a ball of ground glass, or in a white room, dozens of times before it leaves, beside balls
-// of glass to aim at, one with a lamp in it: 5 standard errors, alpha = 6e-7. What few paths carry would show in the
-// variance, or be missed.
+// Light bounces dozens of times in a ball of rough glass, or in a white room. The scene has balls of glass as targets,
+// one with a lamp inside. If a few paths carried the light, the variance would grow or the light would be missed. The
+// bound is 5 standard errors: alpha = 6e-7.
 TEST(PathIntegrator, Guiding_KeepsVarianceLowForManyBounces) {
   for (const bool room : {false, true}) {
     SceneBuilder builder;
@@ -193,7 +193,7 @@ TEST(PathIntegrator, Guiding_KeepsVarianceLowForManyBounces) {
   }
 }
 
-// Narrow glass is not connected to lights that rays meet, by any strategy; what only a connection finds, it shows.
+// No strategy connects near-specular glass to lights that rays can hit. Lights that only connections find still count.
 TEST(PathIntegrator, NearSpecularLobe_FindsEveryLight) {
   const RoughDielectric narrow(Float(1.5), Float(1e-4));
   ASSERT_TRUE(narrow.is_near_specular());
@@ -203,7 +203,8 @@ TEST(PathIntegrator, NearSpecularLobe_FindsEveryLight) {
   sky.add(horizontal(0, 5, 0, 1, 1, false), {sky.add(Lambert()), Emission{Spectrum::Constant(3)}});
   sky.add(horizontal(0, 0, 0, 9, 9, true), {sky.add(narrow)});
   const Scene open = sky.build();
-  // Seen straight on, the light above is mirrored by ((1.5 - 1) / (1.5 + 1))^2; the sky below shines through, denser.
+  // At normal incidence the light above reflects with ((1.5 - 1) / (1.5 + 1))^2. The sky below is transmitted, with
+  // radiance divided by the squared index.
   for (const Strategy& s : unbiased)
     expect_mean(support::traced(open, down, {s, 2}, 20'000), 3 * 0.04 + 0.5 * 0.96 / (1.5 * 1.5), word(s), 1e-4);
 
@@ -211,13 +212,13 @@ TEST(PathIntegrator, NearSpecularLobe_FindsEveryLight) {
   dark.add(Light(PointLight(Vec3d(0, 5, 0), Spectrum::Constant(1))));
   dark.add(horizontal(0, 0, 0, 9, 9, true), {dark.add(narrow)});
   const Scene lamp = dark.build();
-  // D of facets straight on is 1 / (pi alpha^2): F D / 4 times 1 / 5^2.
+  // D at the facet normal is 1 / (pi alpha^2): the result is F D / 4 times 1 / 5^2.
   const double peak = 0.04 / (4 * mc::pi<double> * 1e-8) / 25;
   for (const char* s : {"nee", "mis"})
     expect_mean(support::traced(lamp, down, {strategy_from(s), 2}, 10), peak, s, 1e-3);
 }
 
-// Everything at once: two lights, sky, glass, fuzzy metal. All agree with mis; light-only loses what surfaces reflect.
+// Two lights, sky, glass and fuzzy metal. All strategies agree with mis, except `light`, which misses reflected light.
 TEST(PathIntegrator, StrategiesAgree) {
   SceneBuilder builder;
   const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4)))),
@@ -242,7 +243,8 @@ TEST(PathIntegrator, StrategiesAgree) {
   EXPECT_LE(light.mean(), mis.mean() - 10 * std::hypot(mis.std_error(), light.std_error()));
 }
 
-// A floor beside a wall. Where misses_light says so, `light` is too dark by far more than its error, else it is right.
+// A floor beside a wall. If misses_light() is true, `light` is too dark by far more than its error; otherwise it is
+// right.
 TEST(PathIntegrator, LightStrategy_MissesLightAsStated) {
   for (const bool lamp : {false, true})
     for (const bool sky : {false, true})
@@ -268,7 +270,7 @@ TEST(PathIntegrator, LightStrategy_MissesLightAsStated) {
       }
 }
 
-// Radiance over paths of at most `depth` edges is the partial sum of the series; 0 edges see nothing.
+// The radiance of paths with at most `depth` edges is the partial sum of the series; 0 edges give 0.
 TEST(PathIntegrator, DepthCountsEdges) {
   SceneBuilder builder;
   const BsdfId wall = builder.add(Lambert(Spectrum::Constant(Float(0.9))));
@@ -282,7 +284,7 @@ TEST(PathIntegrator, DepthCountsEdges) {
                   word(s) + " to depth " + std::to_string(depth), 2e-5);
 }
 
-// A scene whose surfaces have a BSDF of the test's own.
+// A scene with one BSDF for all surfaces, which a test supplies.
 template <class B> struct Recovered : Scene {
   B own;
   Recovered(Scene scene, B bsdf) : Scene(std::move(scene)), own(std::move(bsdf)) {}
@@ -290,7 +292,7 @@ template <class B> struct Recovered : Scene {
   const B& bsdf(const Surface&, const Hit&, const SurfacePoint&, std::optional<Bsdf>&) const { return own; }
 };
 
-// Lambert's, with a component that is not a number.
+// Lambert with a NaN in one component.
 struct Broken : Lambert {
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
     auto s = Lambert::sample(wo, uc, u);
@@ -304,7 +306,7 @@ struct Broken : Lambert {
   }
 };
 
-// The back of a flat light that shines to one side is black, however rounding places its points.
+// The back of a one-sided flat light is black, for any rounding of its points.
 TEST(PathIntegrator, OneSidedLight_IsDarkBehind) {
   mc::Pcg random(3);
   const auto direction = [&] { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); };
@@ -320,7 +322,7 @@ TEST(PathIntegrator, OneSidedLight_IsDarkBehind) {
   }
 }
 
-// A NaN throughput ends the path as an invalid sample, however long the path was: roulette must not swallow it.
+// A NaN throughput ends a path of any length as an invalid sample; roulette must not hide it.
 TEST(PathIntegrator, NonFiniteThroughput_IsReported) {
   SceneBuilder builder;
   builder.add(Sphere(Vec3d::Zero(), 1, true), {builder.add(Lambert())});
@@ -336,7 +338,8 @@ TEST(PathIntegrator, NonFiniteThroughput_IsReported) {
   }
 }
 
-// A mirror lobe under half of the light, and Lambert's: .3 of the samples see the mirror, which sends back .8 of that.
+// A BSDF with a mirror lobe under half of the light, and Lambert. 30 % of the samples take the mirror, which reflects
+// .8.
 class Coated {
  public:
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
@@ -361,8 +364,8 @@ class Coated {
   Lambert base_{Spectrum::Constant(Float(0.35))};
 };
 
-// Inside a closed sphere of it that shines with 2, radiance is 2 / (1 - .59): every strategy must find what the mirror
-// lobe sends back, once.
+// Inside a closed sphere of this BSDF with emission 2, radiance is 2 / (1 - .59). Every strategy must count the mirror
+// lobe once.
 TEST(PathIntegrator, MixedDeltaAndRoughLobes_ConserveEnergyInFurnace) {
   SceneBuilder builder;
   builder.add(Sphere(Vec3d::Zero(), 1, true), {builder.add(Lambert()), Emission{Spectrum::Constant(2)}});
@@ -371,7 +374,7 @@ TEST(PathIntegrator, MixedDeltaAndRoughLobes_ConserveEnergyInFurnace) {
   for (const Strategy& s : unbiased) expect_mean(support::traced(scene, ray, {s}, 20'000), 2 / (1 - 0.59), word(s));
 }
 
-// Two lights, a ball that `mis` aims at, a guide: all agree with the BSDF's own directions.
+// Two lights, a ball that `mis` aims at, and an importance target: all strategies agree with `bsdf`.
 TEST(PathIntegrator, MixedDeltaAndRoughLobes_StrategiesAgree) {
   SceneBuilder builder;
   const BsdfId any = builder.add(Lambert()), glass = builder.add(Dielectric());

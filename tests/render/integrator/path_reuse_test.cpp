@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-// Where others than the pixels' own paths might do harm. Each comparison is a test at alpha = 1e-5; there are some
-// seventy, so right code fails for one seed in 1400, and the seeds are fixed.
+// Cases in which reuse might bias pixels. There are about 70 tests at alpha = 1e-5, so correct code fails for one seed
+// in 1400. The seeds are fixed.
 namespace {
 
 using namespace render;
@@ -18,13 +18,13 @@ using Directions4 = std::array<Vec3, 4>;
 
 struct How {
   PathOptions path;
-  MediumStack media = {}; ///< through what the rays start
+  MediumStack media = {}; ///< Media at the ray origins.
   const LightTracer* light_tracer = nullptr;
 };
 
 using Numbers = std::array<mc::IndependentPairs, 4>;
 
-/// Of each pixel of a tile whose rays start at `eye`, in red.
+/// Moments of each pixel of a tile with rays from `eye`, in red.
 std::array<mc::Moments, 4> tile_of(const Scene& scene, const Vec3& eye, const Directions4& ways, const How& how,
                                    std::uint32_t n) {
   using Stream = mc::IndependentPathStream<Float>;
@@ -56,7 +56,7 @@ mc::Moments alone_of(const Scene& scene, const Ray& ray, const How& how, std::ui
   return moments;
 }
 
-// Every pixel is what its path alone makes of it.
+// Every pixel has the mean of its own paths alone.
 void expect_as_alone(const Scene& scene, const Vec3& eye, const Directions4& ways, const How& how,
                      const std::string& what) {
   constexpr std::uint32_t n = 40'000;
@@ -71,7 +71,7 @@ void expect_as_alone(const Scene& scene, const Vec3& eye, const Directions4& way
   }
 }
 
-/// A square floor and wall that meet, of half-size 2, under a lamp that faces down.
+/// A square floor and a wall of half size 2 that meet, under a lamp that faces down.
 struct Corner {
   SceneBuilder builder;
   BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4))));
@@ -93,11 +93,11 @@ struct Corner {
 const Vec3 tile_eye(Float(0.3), 0, 3);
 const Directions4 close = {Vec3(0, Float(-0.3), -1), Vec3(Float(0.02), Float(-0.3), -1), Vec3(0, Float(-0.32), -1),
                            Vec3(Float(0.02), Float(-0.32), -1)};
-// At the floor, the wall, the lamp, and past all.
+// Directions to the floor, to the wall, to the lamp, and past all of them.
 const Directions4 apart = {Vec3(0, Float(-0.4), -1), Vec3(Float(0.1), Float(0.2), -1),
                            Vec3(Float(-0.1), Float(0.5), -1), Vec3(2, 1, -1)};
 
-// In a sphere that shines with e and reflects a all pixels are e / (1 - a), wherever they look and however large it is.
+// In a sphere of emission e and albedo a, all pixels are e / (1 - a), for any direction and radius.
 class PathReuseInFurnace : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(OfRadius, PathReuseInFurnace, testing::Values(1e-15, 1, 1e15));
 TEST_P(PathReuseInFurnace, IsAsBrightEverywhere) {
@@ -123,7 +123,7 @@ TEST(PathReuse, PixelMeansMatchPathIntegrator) {
     }
 }
 
-// Paths that see a black surface end there: they could not have come to what others found.
+// Paths end at a black surface, so they could not have reached the vertices of other pixels.
 TEST(PathReuse, AbsorbedForks_ShareNothing) {
   const Scene scene = Corner().builder.build();
   const Directions4 at_lamp = {close[0], apart[2], Vec3(Float(-0.08), Float(0.5), -1),
@@ -131,7 +131,7 @@ TEST(PathReuse, AbsorbedForks_ShareNothing) {
   expect_as_alone(scene, tile_eye, at_lamp, {{strategy_from("nee")}}, "black lamp");
 }
 
-// Between floor and wall two sheets through which a ray passes by chance.
+// Two sheets with stochastic masks stand between floor and wall.
 TEST(PathReuse, Masks_KeepPixelMeans) {
   Corner corner;
   Material sheet(Lambert(Spectrum::Constant(Float(0.3))));
@@ -142,7 +142,7 @@ TEST(PathReuse, Masks_KeepPixelMeans) {
   expect_as_alone(corner.builder.build(), tile_eye, close, {{strategy_from("mis")}}, "sheets");
 }
 
-// A sheet stands on the floor between the pixels, lit from one side: from the other it is dark.
+// A sheet stands on the floor between the pixels. It is lit from one side and dark on the other.
 TEST(PathReuse, TwoSidedSheet_KeepsPixelMeans) {
   Corner corner;
   corner.add({0, 0, -0.5}, Vec3d::UnitY(), 90, 1, {corner.tan});
@@ -152,8 +152,7 @@ TEST(PathReuse, TwoSidedSheet_KeepsPixelMeans) {
   expect_as_alone(corner.builder.build(), tile_eye, both_sides, {{strategy_from("nee")}}, "sheet");
 }
 
-// Two pixels see a sheet whose shading normal leans over it: what the others find behind it lights it no more than it
-// lights what is seen there.
+// Two pixels show a sheet with a tilted shading normal. Vertices behind the sheet must not light it.
 TEST(PathReuse, ShadingNormalsLeakNothing) {
   Corner corner;
   const Vec3 leaning = Vec3(1, 3, 0).normalized();
@@ -167,7 +166,7 @@ TEST(PathReuse, ShadingNormalsLeakNothing) {
   expect_as_alone(corner.builder.build(), tile_eye, sheet_and_behind, {{strategy_from("nee")}}, "leaning sheet");
 }
 
-// Two pixels see the room in a mirror: their paths have one edge more, which a longest path counts.
+// Two pixels show the room in a mirror. Their paths have one more edge, which counts for the largest depth.
 TEST(PathReuse, DifferentPathLengths_AreNotShared) {
   Corner corner;
   corner.add({1.3, -0.6, 1.5}, Vec3d::UnitY(), -60, 0.6,
@@ -179,7 +178,7 @@ TEST(PathReuse, DifferentPathLengths_AreNotShared) {
     expect_as_alone(scene, tile_eye, half_mirrored, {{strategy_from("mis"), depth}}, "mirror");
 }
 
-// Within what absorbs.
+// The scene lies within an absorbing medium.
 TEST(PathReuse, Media_AttenuateReconnections) {
   Corner corner(Float(0.5));
   SceneBuilder::SurfaceProperties cover{.bsdf = corner.builder.add(Lambert(Spectrum::Constant(Float(0.9))))};
@@ -191,8 +190,8 @@ TEST(PathReuse, Media_AttenuateReconnections) {
   expect_as_alone(scene, tile_eye, close, {{strategy_from("mis"), 4}, inside}, "absorbing");
 }
 
-// With many paths from the lights, which a ball of glass asks for: what these could have found of a path depends on the
-// pixel that it lights, near the ball or far from it.
+// A ball of glass makes light paths pay, and many are traced. The MIS weight against light paths depends on the pixel
+// that receives the light, near the ball or far from it.
 TEST(PathReuse, LightTracing_KeepsPixelMeans) {
   Corner corner;
   corner.builder.add(Sphere(Vec3d(-0.5, -0.5, 0.2), 0.5), {corner.builder.add(Dielectric(Float(1.5)))});
@@ -207,7 +206,7 @@ TEST(PathReuse, LightTracing_KeepsPixelMeans) {
   for (const int depth : {-1, 4}) expect_as_alone(scene, tile_eye, floor, {{many, depth}, {}, &*paths}, "glass");
 }
 
-// Up to four times as many paths light a pixel, unless its neighbours see nothing.
+// Up to four times as many paths light a pixel, unless its neighbours look at nothing.
 TEST(PathReuse, ReuseLowersVariance) {
   const Scene scene = Corner().builder.build();
   Directions4 alone = close;

@@ -13,7 +13,7 @@ using namespace render;
 using StepStream = mc::IndependentPathStream<Float>;
 const mc::IndependentPairs step_numbers(11, 0);
 
-/// A mirror at z = 0 that faces a grey wall at z = 2, which shines a little.
+/// A mirror at z = 0 that faces a grey wall at z = 2. The wall emits a little light.
 Scene mirror_and_wall() {
   SceneBuilder builder;
   builder.add(TriangleMesh::rectangle(Transform::scale({5, 5, 1})),
@@ -24,7 +24,7 @@ Scene mirror_and_wall() {
   return builder.build();
 }
 
-/// Sums what is found.
+/// Sum of the contributions.
 struct Sum {
   Spectrum light = Spectrum::Zero();
   void operator()(const RadianceContribution& contribution) { light += contribution.weighted(); }
@@ -38,7 +38,7 @@ TEST(RadianceContribution, WeightedByMisRatio) {
   EXPECT_EQ((RadianceContribution{Spectrum::Constant(6), mc::infinity<double>}.weighted()[1]), 0);
 }
 
-// By way of the mirror to the wall, whose light counts half.
+// The path reaches the wall by way of the mirror of reflectance 1/2, which halves the wall's light.
 TEST(PathSteps, SkipDeltaBouncesThroughMirrors) {
   const Scene scene = mirror_and_wall();
   const PathSteps<Scene> steps(scene, strategy_from("nee"), -1, nullptr);
@@ -57,7 +57,7 @@ TEST(PathSteps, SkipDeltaBouncesThroughMirrors) {
   EXPECT_NEAR(sum.light[0], 1.5, 1e-5);
 }
 
-// No edge beyond the longest path, and nothing where the path leaves the scene.
+// A path has no edge beyond its largest depth, and none after it leaves the scene.
 TEST(PathSteps, SkipDeltaBounces_StopsAtPathEnd) {
   const Scene scene = mirror_and_wall();
   const auto reaches = [&](int max_depth, const Ray& ray) {
@@ -69,12 +69,12 @@ TEST(PathSteps, SkipDeltaBounces_StopsAtPathEnd) {
     return steps.skip_delta_bounces(state, vertex, stream, rays, [](const RadianceContribution&) {});
   };
   EXPECT_TRUE(reaches(3, at_mirror));
-  EXPECT_FALSE(reaches(2, at_mirror)); // the wall is met, but the path may not go on
+  EXPECT_FALSE(reaches(2, at_mirror)); // the second edge hits the wall, but the path must end there
   EXPECT_FALSE(reaches(1, at_mirror));
   EXPECT_FALSE(reaches(-1, {Vec3(0, 0, 1), Vec3(1, 0, 0)}));
 }
 
-// What survives weighs for what does not; the first edges always do, and what is invalid is never lost.
+// The survivors' weight keeps the mean. The first edges always survive, and so do invalid paths.
 TEST(PathSteps, RouletteKeepsTheMean) {
   StepStream stream(step_numbers, 1);
   const auto beta_after = [&](int edges, Float beta, Float eta_scale) {

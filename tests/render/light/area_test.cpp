@@ -23,7 +23,7 @@ TEST(AreaLight, EmitsFromSideOfNormal) {
   EXPECT_TRUE((both.Le(above, nullptr) == black).all()) << "where no surface is met, it does not shine";
 }
 
-// Two squares of area 4: power pi A L, seen from both sides twice that.
+// A square of area 4 has the power pi A L, and twice that if both sides emit.
 TEST(AreaLight, Power) {
   EXPECT_NEAR(AreaLight(square(), {Spectrum::Constant(3)}).power(1), 12 * mc::pi<double>, 1e-5);
   EXPECT_NEAR(AreaLight(square(), {Spectrum::Constant(3), true}).power(1), 24 * mc::pi<double>, 1e-5);

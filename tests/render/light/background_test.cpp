@@ -14,7 +14,7 @@ TEST(ConstantBackground, IsTheSameEverywhere) {
   const SurfacePoint p;
   EXPECT_TRUE(is_black(sky.Le(Vec3::UnitX(), &p))) << "it does not shine through surfaces";
   EXPECT_EQ(sky.pdf(Vec3::Zero(), Vec3::UnitX(), &p), 0);
-  // Through every point of the disk that a ball of radius 3 shows, 4 pi sr of radiance 2.
+  // A ball of radius 3 has a disk of area 9 pi in every direction, with radiance 2 over 4 pi sr.
   EXPECT_NEAR(sky.power(3) / (mc::pi<double> * 9 * 4 * mc::pi<double> * 2), 1, 1e-6);
 }
 
@@ -25,7 +25,7 @@ TEST(GradientBackground, IsLinearInHeight) {
   EXPECT_TRUE((sky.Le(Vec3::UnitX(), nullptr) == Spectrum(Float(0.75), Float(0.625), Float(0.5))).all());
 }
 
-// Luminance over density is the same for every sample, and is the mean luminance times 4 pi.
+// Luminance over density is constant: the mean luminance times 4 pi.
 TEST(GradientBackground, IsSampledByLuminance) {
   const GradientBackground sky;
   const double expected = sky.power(1) / mc::pi<double>;

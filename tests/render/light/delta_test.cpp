@@ -12,7 +12,7 @@ Vec3d random_vector(mc::Pcg& random) {
   return {random.uniform<double>() - 0.5, random.uniform<double>() - 0.5, random.uniform<double>() - 0.5};
 }
 
-// The inverse square law at any scale: to the rounding of the reference point and of the result.
+// The inverse square law at any scale, up to rounding of the reference point and of the result.
 TEST(PointLight, FallsWithTheSquareOfTheDistance) {
   mc::Pcg random(11);
   for (const double scale : {1e-15, 1e-6, 1.0, 1e6, 1e15})
@@ -36,7 +36,7 @@ TEST(PointLight, Power) {
   EXPECT_NEAR(PointLight(Vec3d::Zero(), Spectrum::Constant(3)).power(1), 12 * mc::pi<double>, 1e-5);
 }
 
-// Where it stands there is no direction towards it, and its weight stays a number.
+// At the position of the light there is no direction toward it, and its weight stays finite.
 TEST(PointLight, AtItsOwnPlace) {
   const std::vector<Light> lights = {PointLight(Vec3d(1, 2, 3), Spectrum::Ones()),
                                      PointLight(Vec3d(1, 2, 4), Spectrum::Constant(1e30f)),

@@ -17,7 +17,7 @@ std::shared_ptr<const Texels> picture(int width, int height, const std::function
 }
 
 TEST(Environment, MatchesMitsubaOrientation) {
-  // Four columns: -z, +x, +z, -x at the quarters; the top row is +y.
+  // Four columns are at -z, +x, +z and -x; the top row is at +y.
   const Environment e(picture(4, 2, [](int x, int y) { return Spectrum(Float(x + 1), Float(y), 0); }));
   const auto red = [&](const Vec3d& d) { return e.Le(d.normalized().cast<Float>(), nullptr)[0]; };
   const double between = mc::pi<double> / 4; // the middle of a column
@@ -46,8 +46,8 @@ TEST(Environment, TurnsWithItsTransform) {
   }
 }
 
-// Sample and pdf say the same; radiance over density averages to the flux, and a density is an integral of 1: by
-// regular grids, whose lines are not those of the texels, on random pictures with black texels.
+// Samples have the density pdf(). The mean of radiance over density is the flux, and the density integrates to 1.
+// Regular grids that differ from the grid of texels evaluate both, on random images with black texels.
 TEST(Environment, SampleAgreesWithPdf) {
   mc::Pcg random(4);
   for (int trial = 0; trial < 6; ++trial) {
@@ -66,7 +66,7 @@ TEST(Environment, SampleAgreesWithPdf) {
         EXPECT_GT(s->pdf, 0);
         EXPECT_FALSE(s->point);
         flux += double(luminance(s->radiance)) / double(s->pdf) / (n * n);
-        // A grid of (theta, phi) for the integral of the density, which is constant times 1 / sin(theta) in a texel.
+        // Grid in (theta, phi) for the integral of the density, which is constant times 1 / sin(theta) in a texel.
         const double theta = mc::pi<double> * (i + 0.5) / n, phi = 2 * mc::pi<double> * (j + 0.5) / n,
                      r = std::sin(theta);
         const Vec3 wi = Vec3d(r * std::cos(phi), std::cos(theta), r * std::sin(phi)).cast<Float>();

@@ -13,13 +13,14 @@ Light ball(const Vec3d& center, double radius, double radiance) {
                    Emission{Spectrum::Constant(Float(radiance))});
 }
 
-// Dark lights and those that are met by chance are never chosen; the others share two thirds by what they give here.
+// Black lights and lights without sampling are never selected. The others share two thirds by irradiance, one
+// uniformly.
 TEST(LightSampler, ProbabilityFollowsIrradiance) {
   const std::vector<Light> lights = {ball({0, 0, 3}, 1, 1), ball({0, 0, 1}, 1, 0), ball({0, 6, 0}, 1, 2),
                                      Light(ConstantBackground(Spectrum::Ones()))};
   const auto choice = LightSampler::create(lights, 10);
   ASSERT_TRUE(choice);
-  // pi / 9 and 2 pi / 36
+  // The irradiances are pi / 9 and 2 pi / 36.
   const double first = 2.0 / 3 * 2 / 3 + 1.0 / 6;
   EXPECT_NEAR(choice->pmf(lights, Vec3::Zero(), 0), first, 1e-6);
   EXPECT_NEAR(choice->pmf(lights, Vec3::Zero(), 2), 1 - first, 1e-6);
@@ -36,8 +37,8 @@ TEST(LightSampler, NoLights_CreatesNone) {
   EXPECT_FALSE(LightSampler::create(dark, 1));
 }
 
-// Random lights from one to twice as many as are weighed one by one, of any size, place and strength, seen from
-// anywhere, even from within: probabilities add up to 1, sample and pmf say the same, and nobody is left out.
+// Random lights of any size, position and strength: one up to twice the largest number that is weighted by irradiance.
+// Reference points may lie inside lights. Probabilities add up to 1, samples match pmf(), and every light is selected.
 TEST(LightSampler, EveryLightHasMinimumProbability) {
   mc::Pcg random(8);
   const auto number = [&](double decades) { return std::pow(10, decades * (2 * random.uniform<double>() - 1)); };

@@ -45,13 +45,13 @@ TEST(SceneBuilder, ErrorsNameTheProblem) {
   const HomogeneousMedium ink(Spectrum::Ones());
   EXPECT_THAT(message([&] { builder.add(ball, {.bsdf = lattice, .interior = ink}); }),
               testing::HasSubstr("shape 1 holds what absorbs"));
-  // What was refused has left nothing behind.
+  // Rejected parts are not in the scene.
   const Scene scene = builder.build();
   EXPECT_EQ(scene.surfaces().size(), 1u);
   EXPECT_TRUE(scene.lights().empty());
 }
 
-// What nothing aims at keeps no table to pick its triangles by.
+// Only meshes that are lights or importance targets keep the table for sampling triangles.
 TEST(SceneBuilder, KeepsSamplingTablesOfLightsAndTargets) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert());

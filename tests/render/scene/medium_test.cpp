@@ -1,4 +1,4 @@
-// What glass absorbs, known in closed form.
+// Absorption in media, against closed forms.
 
 #include <render/render.h>
 #include <render/scene/builder.h>
@@ -16,7 +16,7 @@ using namespace render;
 
 const Spectrum white = Spectrum::Ones();
 
-/// A unit that a scene is measured in, and where it is.
+/// A scale and a position of a scene.
 struct Space {
   double scale;
   Transform world;
@@ -52,8 +52,9 @@ TEST(HomogeneousMedium, BeersLaw) {
                 testing::StartsWith("medium: sigmaA (0, " + fmt::format("{}", bad)));
 }
 
-// Boundaries of index 1 bend nothing and reflect nothing: exp(-sigma t), t the way inside, under every strategy, of any
-// size, at any place. To the rounding of coordinates that are up to four times as large as the scene.
+// Boundaries of index 1 neither refract nor reflect. The transmittance is exp(-sigma t) for the distance t inside,
+// under every strategy, at any scale and position. The bound is the rounding of coordinates up to four times the
+// scene's size.
 TEST(HomogeneousMedium, SphereChord_MatchesBeersLaw) {
   mc::Pcg random(1);
   for (int i = 0; i < 100; ++i) {
@@ -73,8 +74,8 @@ TEST(HomogeneousMedium, SphereChord_MatchesBeersLaw) {
   }
 }
 
-// Within what absorbs lies something else that does: outside of the inner one the outer one goes on. Roulette plays on
-// the way: t-tests of 30 means at alpha = 1e-6, fixed seeds.
+// A medium within another medium: the outer one continues beyond the inner one. Roulette makes the radiance vary.
+// t-tests of 30 means at alpha = 1e-6, fixed seeds.
 TEST(HomogeneousMedium, NestedSpheres_MatchBeersLaw) {
   mc::Pcg random(3);
   for (int i = 0; i < 30; ++i) {
@@ -95,8 +96,8 @@ TEST(HomogeneousMedium, NestedSpheres_MatchBeersLaw) {
   }
 }
 
-// Through a plate of thickness d and reflectance R of its faces, head-on: with e = exp(-sigma d), what goes to and fro
-// inside sums to T = (1 - R)^2 e / (1 - R^2 e^2); R + R e T comes back. Behind it the sky is 1, before it too. t-tests
+// A plate of thickness d and face reflectance R at normal incidence. With e = exp(-sigma d), reflections inside sum to
+// the transmittance T = (1 - R)^2 e / (1 - R^2 e^2) and the reflectance R + R e T. The sky is 1 on both sides. t-tests
 // of 30 x 7 means at alpha = 1e-6, fixed seeds.
 TEST(HomogeneousMedium, APlateOfGlass) {
   mc::Pcg random(2);
@@ -120,8 +121,8 @@ TEST(HomogeneousMedium, APlateOfGlass) {
   }
 }
 
-// A shell: only between its two surfaces, which both name the medium, is anything absorbed. Roulette makes it vary:
-// t-tests of 20 means at alpha = 1e-6, fixed seeds.
+// A shell absorbs only between its two surfaces, which both have the medium. Roulette makes the radiance vary. t-tests
+// of 20 means at alpha = 1e-6, fixed seeds.
 TEST(HomogeneousMedium, HollowSphere_MatchesBeersLaw) {
   mc::Pcg random(3);
   for (int i = 0; i < 20; ++i) {
@@ -144,7 +145,7 @@ TEST(HomogeneousMedium, HollowSphere_MatchesBeersLaw) {
   }
 }
 
-// A floor and a point of light in a ball of it: along the shadow ray and along the eye's something is lost.
+// A floor and a point light in a ball of the medium: it absorbs along shadow rays and along camera rays.
 TEST(HomogeneousMedium, AbsorbsAlongShadowRays) {
   mc::Pcg random(4);
   for (int i = 0; i < 100; ++i) {
@@ -167,8 +168,8 @@ TEST(HomogeneousMedium, AbsorbsAlongShadowRays) {
   }
 }
 
-// A ball of light above a floor, both inside: whether light is met by chance or connected to, the same is lost.
-// Welch's tests of 4 pairs at alpha = 1e-6.
+// A spherical light above a floor, both inside the medium. Hits and connections lose the same light. Welch's tests of 4
+// pairs at alpha = 1e-6.
 TEST(HomogeneousMedium, StrategiesAgree) {
   SceneBuilder builder;
   builder.add(Sphere(Vec3d::Zero(), 4), {.bsdf = builder.add(RoughDielectric(Float(1.5), Float(0.4))),
@@ -193,7 +194,7 @@ TEST(HomogeneousMedium, StrategiesAgree) {
   }
 }
 
-// A camera in a ball of ink, before and behind a window of its own, and beside the ball.
+// The camera is in a ball of ink, before or behind a window in the ball, or outside the ball.
 TEST(HomogeneousMedium, CameraInsideMedium_MatchesBeersLaw) {
   const HomogeneousMedium ink(Spectrum(Float(0.5), 2, 0));
   for (const double z : {0.4, -0.2, 5.0}) {

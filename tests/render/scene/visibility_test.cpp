@@ -1,4 +1,4 @@
-// What passes masks, known in closed form, under every strategy.
+// Masks under every strategy, against closed forms.
 
 #include <render/layers.h>
 #include <render/scene/builder.h>
@@ -22,12 +22,12 @@ Material masked(const Bsdf& bsdf, Mask mask) {
 }
 Bsdf gray(double albedo) { return Lambert(Spectrum::Constant(Float(albedo))); }
 
-// Plates of random opacities, turned at random, across the axis from y = 1 to y = 3, in a space of any scale and place.
+// Plates of random opacity and orientation across the axis from y = 1 to y = 3, at a random scale and position.
 struct Plates {
   double scale;
   Transform space;
   SceneBuilder builder;
-  double open = 1; ///< what passes all of them
+  double open = 1; ///< Transmittance of all plates.
 
   Plates(mc::Pcg& random, int n, double albedo, double most_opaque = 1) {
     scale = std::pow(10, 10 * random.uniform<double>() - 5);
@@ -57,7 +57,7 @@ TEST(Visibility, SkyThroughMasks_MatchesClosedForm) {
     const Scene scene = plates.builder.build();
     const Ray ray{plates.point({0.1, 0, 0.2}), plates.direction({0.1, 1, -0.2})};
     for (const Strategy& s : strategies) {
-      // Whatever is passed, it is one edge.
+      // Passed plates add no edges.
       const mc::Moments m = support::traced(scene, ray, {s, 1}, 4000);
       EXPECT_GE(mc::t_test(m, plates.open).p, 1e-6)
           << i << " " << s.name << ": " << m.mean() << " +- " << m.std_error() << ", expected " << plates.open;
@@ -65,7 +65,7 @@ TEST(Visibility, SkyThroughMasks_MatchesClosedForm) {
   }
 }
 
-// A shadow ray to a point of light is no matter of chance: rho / pi I cos / d^2 times what passes.
+// Shadow rays to a point light are deterministic: rho / pi I cos / d^2 times the transmittance.
 TEST(Visibility, PointLightThroughMasks_MatchesClosedForm) {
   mc::Pcg random(2);
   for (int i = 0; i < 100; ++i) {
@@ -85,9 +85,9 @@ TEST(Visibility, PointLightThroughMasks_MatchesClosedForm) {
   }
 }
 
-// Above a floor a ball of light that shines with L, whose radius is sin a of its distance, gives it rho L sin^2 a:
-// strategies that find it by chance, by connection and by both agree. Of 8000 samples at least 80 find it by chance,
-// enough for a t-test. Of those 10 x 7 at alpha = 1e-6, fixed seeds; to 1e-5 besides, the rounding of places.
+// A spherical light of radiance L above a floor, with a radius of sin a times its distance, causes the radiance rho L
+// sin^2 a. Strategies that use hits, connections or both agree. At least 80 of 8000 samples hit the light, enough for a
+// t-test. 10 x 7 t-tests at alpha = 1e-6, fixed seeds, with 1e-5 for rounding of positions.
 TEST(Visibility, SphereLightThroughMasks_MatchesClosedForm) {
   mc::Pcg random(3);
   for (int i = 0; i < 10; ++i) {
@@ -110,7 +110,7 @@ TEST(Visibility, SphereLightThroughMasks_MatchesClosedForm) {
   }
 }
 
-// Plates that reflect all that they stop vanish in a white sky, whatever paths they lead to.
+// Plates that reflect all light that they stop are invisible in a white sky.
 TEST(Visibility, WhiteMasks_VanishInWhiteSky) {
   mc::Pcg random(4);
   for (int i = 0; i < 10; ++i) {
@@ -125,7 +125,7 @@ TEST(Visibility, WhiteMasks_VanishInWhiteSky) {
   }
 }
 
-// Squares that are there and squares that are not: no chance about them, for eyes, shadows, normals and occlusion.
+// A checkerboard mask is either opaque or transparent: camera rays, shadows, normals and occlusion are deterministic.
 TEST(Visibility, MaskTexture_IsOpaqueOrTransparent) {
   const Spectrum none = Spectrum::Zero(), all = Spectrum::Ones();
   SceneBuilder builder;
@@ -149,7 +149,7 @@ TEST(Visibility, MaskTexture_IsOpaqueOrTransparent) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->shape, there ? 0 : 1);
     EXPECT_EQ(rays, there ? 1u : 2u);
-    // A ray that ends before the floor ends there though it passes a hole.
+    // A ray that ends before the floor passes a hole and hits nothing.
     Ray cut{over, down, Float(1.5)};
     EXPECT_EQ(nearest_hit(scene, cut, rays, [](Float opacity) { return opacity < 1; }).has_value(), there);
     EXPECT_EQ(shadow_transmittance(scene, {over, down, Float(1.5)}, {}, rays), there ? 0 : 1);
@@ -157,8 +157,7 @@ TEST(Visibility, MaskTexture_IsOpaqueOrTransparent) {
   }
 }
 
-// Under a plate of opacity a that fills the sky, to a part in 1e4, a share of 1 - a of it is open. t-tests at
-// alpha = 1e-6.
+// A plate of opacity a covers the sky up to 1e-4, so the ambient occlusion below is 1 - a. t-tests at alpha = 1e-6.
 TEST(Visibility, AovsThroughMask_MatchClosedForm) {
   SceneBuilder builder;
   builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 1}) * Transform::scale({1e3, 1e3, 1})),
@@ -167,14 +166,14 @@ TEST(Visibility, AovsThroughMask_MatchClosedForm) {
   const Scene scene = builder.build();
   const Ray below{Vec3(0, 0, Float(0.5)), Vec3(0, 0, -1)}, above{Vec3(0, 0, 2), Vec3(1, 0, -10).normalized()};
   EXPECT_NEAR(support::traced(scene, below, {.aov = Aov::ambient_occlusion}, 1000).mean(), 0.7, 1e-4);
-  // The normal of the plate and of the floor is +z: blue. Both are 1 there, so the share of neither is seen.
+  // Plate and floor have the normal +z, and its blue is 1. So the opacity does not matter.
   EXPECT_NEAR(support::traced(scene, above, {.aov = Aov::normals}, 100, 2).mean(), 1, 1e-6);
-  // From above .3 see the plate, which nothing shades, the others the floor under it.
+  // A share of .3 of the rays from above hits the unoccluded plate; the others hit the floor below it.
   const mc::Moments m = support::traced(scene, above, {.aov = Aov::ambient_occlusion}, 20'000);
   EXPECT_GE(mc::t_test(m, 0.3 + 0.7 * 0.7).p, 1e-6) << m.mean() << " +- " << m.std_error();
 }
 
-// Layers have no chance: they show what is there by half at least.
+// Layers are deterministic: they show surfaces of opacity 1/2 or more.
 TEST(Visibility, Layers_ShowSurfacesOfHalfOpacityOrMore) {
   for (const double opacity : {0.0, 0.49, 0.5, 1.0}) {
     SceneBuilder builder;
