@@ -1,4 +1,4 @@
-// Ambient occlusion where it is known in closed form. t-tests at alpha = 1e-6, about twenty, fixed seeds.
+// Ambient occlusion against closed forms. About twenty t-tests at alpha = 1e-6, fixed seeds.
 
 #include <render/scene/builder.h>
 
@@ -22,7 +22,7 @@ void expect_open(const Scene& scene, const Ray& ray, double reach, double expect
   else EXPECT_GE(mc::t_test(moments, expected).p, 1e-6) << what << ": " << moments.mean() << " for " << expected;
 }
 
-// A floor y = 0 and a wall x = 0 of height h, so wide that its ends are not seen, at any scale.
+// A floor y = 0 and a wall x = 0 of height h, at any scale, so wide that their ends do not matter.
 Scene corner(double h, double scale) {
   const double far = 3e3 * scale;
   SceneBuilder builder;
@@ -37,7 +37,7 @@ Scene corner(double h, double scale) {
 
 Ray down_to(double x, double scale) { return {Vec3d(x * scale, 0.01 * scale, 0).cast<Float>(), Vec3(0, -1, 0)}; }
 
-// At x from a wall of height h the floor misses (1 - x / sqrt(x^2 + h^2)) / 2: the wall's form factor.
+// At the distance x from a wall of height h, the wall's form factor (1 - x / sqrt(x^2 + h^2)) / 2 is occluded.
 TEST(AmbientOcclusion, WallBesideFloor_MatchesClosedForm) {
   for (const double scale : {1e-10, 1.0, 1e10})
     for (const double x : {0.1, 1.0, 5.0})
@@ -45,9 +45,8 @@ TEST(AmbientOcclusion, WallBesideFloor_MatchesClosedForm) {
                   fmt::format("{} at {}", x, scale));
 }
 
-// Of a wall that ends nowhere within reach r the floor misses the directions that meet it sooner: half of a cone about
-// the wall's normal, whose cosine is c = x / r, on the floor a segment of the unit disk: (acos c - c sqrt(1 - c^2)) /
-// pi.
+// A wall without end occludes the directions that hit it within the range r. They are half of a cone about the wall's
+// normal with the cosine c = x / r. On the floor this is a segment of the unit disk: (acos c - c sqrt(1 - c^2)) / pi.
 TEST(AmbientOcclusion, IgnoresOccludersBeyondMaxDistance) {
   for (const double scale : {1e-10, 1.0, 1e10})
     for (const double x : {0.1, 0.5, 0.9, 1.1}) {
@@ -57,8 +56,8 @@ TEST(AmbientOcclusion, IgnoresOccludersBeyondMaxDistance) {
     }
 }
 
-// In a ball of radius 1 the other side is 2 cos away: farther than r for 1 - r^2 / 4 of the sky's light. From outside
-// all is open, on either side of the normals, and where nothing is seen.
+// In a ball of radius 1 the other side is at the distance 2 cos, beyond r for a share 1 - r^2 / 4 of the sky's light.
+// From outside nothing is occluded, for either orientation of the normals, nor without a hit.
 TEST(AmbientOcclusion, InsideAndOnSphere_MatchesClosedForm) {
   for (const bool inside_out : {false, true}) {
     SceneBuilder builder;

@@ -1,4 +1,4 @@
-// Scenes of the gallery whose pictures are known in closed form.
+// Scenes of the gallery with closed forms.
 
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
@@ -30,7 +30,7 @@ RenderResult rendered(const std::string& name, int spp) {
   return result;
 }
 
-// The first book's camera sees 4 x 2 at distance 1.
+// The first book's camera shows 4 x 2 at distance 1.
 Vec direction(int x, int y) { return Vec(-2 + (x + 0.5) / 50, 1 - (y + 0.5) / 50, -1).normalized(); }
 
 Color sky(const Vec& d) {
@@ -38,7 +38,7 @@ Color sky(const Vec& d) {
   return (1 - t) * Color(1, 1, 1) + t * Color(0.5, 0.7, 1);
 }
 
-// The distance to a sphere, or infinity; `clear` is how far the ray passes from its silhouette, in radii.
+// The distance to a sphere, or infinity. `clear` is the distance of the ray from the silhouettes, in radii.
 double distance(const Vec& d, const Vec& center, double radius, double& clear) {
   const double along = d.dot(center), miss2 = (center - along * d).squaredNorm();
   if (along < 0) return mc::infinity<double>;
@@ -48,7 +48,7 @@ double distance(const Vec& d, const Vec& center, double radius, double& clear) {
 
 double off(const Spectrum& a, const Color& b) { return (a.cast<double>() - b).abs().maxCoeff(); }
 
-// Every sample lies in its pixel, over which red changes by 1/200 and green by 1/100.
+// Every sample lies in its pixel, across which red changes by 1/200 and green by 1/100.
 TEST(ClosedForm, Gradient) {
   const Image image = rendered("book1-gradient", 4).image;
   ASSERT_EQ(image.width, 200);
@@ -61,16 +61,16 @@ TEST(ClosedForm, Gradient) {
     }
 }
 
-// A pixel is .02 wide: its corners are .0142 from its middle, so half the height of the direction differs by at most
-// .0071, and red, which changes most, by .0036.
+// A pixel is .02 wide, and its corners are .0142 from its centre. Half the height of the direction then differs by at
+// most .0071, and red, which changes most, by .0036.
 TEST(ClosedForm, Sky) {
   const Image image = rendered("book1-sky", 4).image;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) EXPECT_LE(off(image.at(x, y), sky(direction(x, y))), 0.0036);
 }
 
-// The rays of a pixel pass within .001 pixels of its middle: but for those on an edge all see what that sees. Then a
-// normal changes by at most 2e-5 / (radius cos), where the ray passes .01 radii inside the silhouette 1.5e-3.
+// The rays of a pixel pass within .001 pixels of its centre. So all of them hit the same surface, except at an edge. A
+// normal changes by at most 2e-5 / (radius cos), which is 1.5e-3 at .01 radii inside the silhouette.
 TEST(ClosedForm, RedSphereAndNormals) {
   const Image red = rendered("book1-red-sphere", 4).image, normals = rendered("book1-normals", 4).image;
   int on_ball = 0, on_ground = 0;
@@ -93,9 +93,9 @@ TEST(ClosedForm, RedSphereAndNormals) {
   EXPECT_GT(on_ground, 5000);
 }
 
-// A ball of radius R that shines with L, at distance d and height h above the floor, gives it L (R/d)^2 h/d of radiance
-// per reflectance. Whole rows of the floor, since the curvature of that over a pixel is 1e-4 of it; at most 5 of their
-// standard errors off, three channels of 100 rows: once in 6000 seeds, and the seed is fixed.
+// A ball of radius R and radiance L, at distance d and height h above the floor, causes the radiance L (R/d)^2 h/d per
+// reflectance. Whole rows of the floor are compared, since the curvature over a pixel is 1e-4. The bound of 5 standard
+// errors, for three channels of 100 rows, fails for one seed in 6000. The seed is fixed.
 TEST(ClosedForm, SphereLight) {
   const RenderResult result = rendered("sphere-light", 16);
   const Image& image = result.image;
@@ -118,13 +118,13 @@ TEST(ClosedForm, SphereLight) {
     }
 }
 
-// A lamp in the middle of a closed sphere of radius 1: the wall shows albedo / pi E / (1 - albedo).
+// A lamp in the middle of a closed sphere of radius 1: the radiance of the wall is albedo / pi E / (1 - albedo).
 struct Lamp {
   double radius, albedo;
-  std::string around, strategy; ///< what stands around it
+  std::string around, strategy; ///< shapes around the lamp, and the strategy
 };
 
-// What the wall shows over what it should, and the standard error of that.
+// Radiance of the wall over its closed form, and the standard error of this ratio.
 double seen_of(const Lamp& lamp, double& error) {
   const std::string file = testing::TempDir() + "/lamp.xml";
   mc::write_file(file, fmt::format(R"(<scene version="0.6.0"><sensor type="perspective"><float name="fov" value="20"/>
@@ -152,7 +152,7 @@ double seen_of(const Lamp& lamp, double& error) {
   return seeds.mean() / expected;
 }
 
-// Directions are aimed at what is small, whose throughput is: paths must live to bring its light.
+// Directions aim at a small lamp, and their throughput is as small as the lamp. Roulette must keep such paths.
 TEST(ClosedForm, SmallGuidedLights_MatchClosedForm) {
   double error = 0;
   const double bare = seen_of({1e-3, 0.5, "", "mixture"}, error);

@@ -1,5 +1,5 @@
-// Pictures of one point whose radiance is known, where sizes and places are extreme. Each mean is held against the
-// closed form by a t-test at alpha = 1e-5; there are a hundred, and the seeds are fixed.
+// Radiances with closed forms, at extreme sizes and positions. There are about 100 t-tests at alpha = 1e-5; the seeds
+// are fixed.
 
 #include <render/integrator/path_integrator.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -27,7 +27,7 @@ void expect_mean(const mc::Moments& m, double value, double rounding, const std:
       << what << ": " << m.mean() << " +- " << m.std_error() << ", expected " << value;
 }
 
-/// Horizontal rectangle, normal up or down.
+/// Horizontal rectangle with normal up or down.
 Shape horizontal(const Vec3d& center, double half, bool up) {
   return TriangleMesh::rectangle(
       Transform::columns(Vec3d(half, 0, 0), Vec3d(0, 0, up ? -half : half), Vec3d(0, up ? 1 : -1, 0), center));
@@ -35,8 +35,8 @@ Shape horizontal(const Vec3d& center, double half, bool up) {
 
 std::vector<std::string> unbiased() { return {"bsdf", "hemisphere", "mixture", "nee", "mis"}; }
 
-// A light of half size h and radiance 1 / h^2: 4 cos^2 / (pi d^2) up to h^2 / d^2. Aimed directions that rounding
-// carries past a light of a few thousand ulps must not be weighed as if nobody had aimed.
+// A light of half size h and radiance 1 / h^2 causes 4 cos^2 / (pi d^2), up to h^2 / d^2. Rounding makes some
+// directions miss a light of a few thousand ulps. Their weights must still be the weights of aimed directions.
 TEST(Extremes, SmallLightsUnderStrategiesThatAimOrConnect) {
   const Vec3d place(0.5, 0.7, 0.3);
   const double d2 = place.squaredNorm(), expected = 4 * 0.49 / (mc::pi<double> * d2 * d2);
@@ -52,8 +52,8 @@ TEST(Extremes, SmallLightsUnderStrategiesThatAimOrConnect) {
   }
 }
 
-// In a furnace of 1 a glass sphere of radius 1 far away changes nothing, whoever aims at it. Where no light is sampled
-// nobody does, so one lies behind the floor.
+// In a furnace of 1 a distant glass sphere of radius 1 is invisible under every strategy. Strategies aim at glass only
+// if a light is sampled, so there is a light behind the floor.
 TEST(Extremes, AFurnaceWithFarGlass) {
   for (const double distance : {1e4, 1e6, 1e7, 1e8}) {
     SceneBuilder builder;
@@ -69,8 +69,8 @@ TEST(Extremes, AFurnaceWithFarGlass) {
   }
 }
 
-// A black sphere of radius 1 on a white ground, sky 1: beside it the ground sees 1 - (1 + x^2)^-3/2 of the sky (the
-// sphere's form factor), however large the ground is.
+// A black sphere of radius 1 on a white ground under a sky of 1. Beside the sphere the ground receives 1 - (1 +
+// x^2)^-3/2 of the sky, by the sphere's form factor, for any size of the ground.
 TEST(Extremes, ABlackSphereOnALargeGround) {
   const double x = 0.3, expected = 1 - std::pow(1 + x * x, -1.5);
   for (const double half : {1e2, 1e4, 1e6}) {
@@ -80,7 +80,7 @@ TEST(Extremes, ABlackSphereOnALargeGround) {
     builder.add(horizontal(Vec3d::Zero(), half, true), {white});
     builder.add(Sphere(Vec3d(0, 1, 0), 1), {black});
     const Scene scene = builder.build();
-    // Under the sphere's overhang, from the side.
+    // Under the sphere's overhang, viewed from the side.
     const Vec3 eye(3, Float(0.01), 0), at(Float(x), 0, 0);
     for (const std::string& strategy : unbiased())
       expect_mean(support::traced(scene, {eye, (at - eye).normalized()}, {strategy_from(strategy), 2}, 20'000),
@@ -88,7 +88,7 @@ TEST(Extremes, ABlackSphereOnALargeGround) {
   }
 }
 
-// No light comes through a closed icosahedron, whatever its shading normals pretend.
+// No light enters a closed icosahedron with any shading normals.
 TEST(Extremes, SmoothNormalsLetNoLightThrough) {
   const Float g = (1 + std::sqrt(Float(5))) / 2;
   std::vector<Vec3> corners, normals;
@@ -123,7 +123,7 @@ TEST(Extremes, SmoothNormalsLetNoLightThrough) {
   }
 }
 
-// The same of a sphere, of radius r and radiance 1 / r^2: cos / d^2.
+// The same for a sphere of radius r and radiance 1 / r^2: cos / d^2.
 TEST(Extremes, SmallSpheresUnderStrategiesThatAimOrConnect) {
   const Vec3d place(0.5, 0.7, 0.3);
   const double d2 = place.squaredNorm(), expected = 0.7 / (d2 * std::sqrt(d2));
@@ -139,9 +139,9 @@ TEST(Extremes, SmallSpheresUnderStrategiesThatAimOrConnect) {
   }
 }
 
-// A scene file moved far away is the same scene, with a floor that is a square or a part of a room of huge spheres.
+// A scene file that is moved far away is the same scene. Its floor is a square or part of a room of huge spheres.
 struct Moved : support::ScratchTest {
-  // Numbers of 16 digits resolve places to 1e-7 at 1e9.
+  // Numbers of 16 digits resolve positions to 1e-7 at 1e9.
   void expect_the_same(const std::function<std::string(const Vec3d& origin)>& floor) const {
     const Vec3d place(0.5, 0.7, 0.3);
     const double d2 = place.squaredNorm(), expected = 0.7 / (d2 * std::sqrt(d2)), r = 0.1;
@@ -162,7 +162,7 @@ struct Moved : support::ScratchTest {
                     fmt::format("{}, moved by {}", strategy, distance));
     }
   }
-  /// Without the tag that ends it.
+  /// Without the closing tag.
   static std::string sphere(const Vec3d& center, double radius) {
     return fmt::format("<shape type=\"sphere\"><point name=\"center\" x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/>"
                        "<float name=\"radius\" value=\"{}\"/>",
@@ -187,8 +187,8 @@ TEST_F(Moved, AmongHugeSpheresToo) {
   });
 }
 
-// A lamp beside the floor and a sun of a million times its power, so far away that the lamp gives almost all. The error
-// is that of a picture lit by the lamp alone.
+// A lamp beside the floor, and a sun of a million times its power that is so far away that the lamp dominates. The
+// error is about the error with the lamp alone.
 TEST(Extremes, AFarSunDoesNotHideALamp) {
   const Vec3d place(0.5, 0.7, 0.3);
   const double d2 = place.squaredNorm(), lamp = 0.7 / (d2 * std::sqrt(d2)), r = 0.1, far = 1e5;
@@ -205,7 +205,7 @@ TEST(Extremes, AFarSunDoesNotHideALamp) {
   }
 }
 
-// Nothing of what shines outside comes into a closed box, wherever it stands.
+// No light enters a closed box, at any position.
 TEST(Extremes, AClosedCubeIsDarkInside) {
   for (const double distance : {0.0, 1e4, 1e6}) {
     const Vec3d middle(distance, 0.3 * distance, -0.7 * distance);
@@ -226,7 +226,7 @@ TEST(Extremes, AClosedCubeIsDarkInside) {
   }
 }
 
-// Nor where it is a file far away, where floats have no room for the cube.
+// The same for a file far away, where floats cannot represent the cube.
 struct FarCube : support::ScratchTest {};
 TEST_F(FarCube, IsDarkInside) {
   for (const double distance : {1e4, 1e6, 3e7, 1e8, 1e9}) {

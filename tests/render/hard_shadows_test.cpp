@@ -1,4 +1,4 @@
-// Points and directions of light over floors and in balls, whose radiance is known in closed form.
+// Point lights and directional lights above floors and in balls, against closed forms.
 
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
@@ -19,7 +19,7 @@ constexpr double rho = 0.6;
 
 Vec3d random_direction(mc::Pcg& random) { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); }
 
-// A floor 100 units wide, y = 0, in a space that is scaled, turned and moved, and a ray that meets its origin.
+// A floor y = 0 of width 100 in a random space, and a ray that hits its origin.
 struct Floor {
   Transform space;
   double scale;
@@ -42,7 +42,7 @@ struct Floor {
   }
 };
 
-// rho / pi I cos / d^2, wherever the light is, at any scale, turned and moved: to the rounding of float coordinates.
+// rho / pi I cos / d^2 for any position of the light, scale, rotation and translation, up to rounding of coordinates.
 TEST(HardShadows, APointOverAFloor) {
   mc::Pcg random(1);
   for (int i = 0; i < 100; ++i) {
@@ -50,7 +50,7 @@ TEST(HardShadows, APointOverAFloor) {
     const Vec3d at = std::pow(10, 2 * random.uniform<double>() - 1) * random_direction(random);
     floor.builder.add(Light(PointLight(floor.space.point(at), Spectrum::Constant(Float(floor.scale * floor.scale)))));
     const Scene scene = floor.builder.build();
-    // The ray looks from above: from below the floor is dark.
+    // The ray comes from above; light from below leaves the floor dark.
     const double expected = at.y() > 0 ? rho / mc::pi<double> * at.y() / std::pow(at.norm(), 3) : 0;
     for (const char* strategy : {"nee", "mis"})
       EXPECT_NEAR(support::traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 4).mean(), expected,
@@ -73,7 +73,7 @@ TEST(HardShadows, ParallelLightOnAFloor) {
   }
 }
 
-// A ball between: all or nothing, as the ray to the light passes within its radius or not.
+// A ball between floor and light: the light is fully occluded if its ray passes within the radius, otherwise not.
 TEST(HardShadows, DeltaLights_HaveNoPenumbra) {
   mc::Pcg random(3);
   int lit = 0, dark = 0;
@@ -92,7 +92,7 @@ TEST(HardShadows, DeltaLights_HaveNoPenumbra) {
           Light(PointLight(floor.space.point(light), Spectrum::Constant(Float(floor.scale * floor.scale)))));
     const Scene scene = floor.builder.build();
     Ray ray = floor.ray_to(p);
-    ray.o += ray.d * Float(0.99 * floor.scale); // from so near that the ball is not in the way
+    ray.o += ray.d * Float(0.99 * floor.scale); // starts so near that the ball is not in the way
     const double full = rho / mc::pi<double> * to.y() / (parallel ? 1 : (light - p).squaredNorm());
     const double expected = miss < radius ? 0 : full;
     (miss < radius ? dark : lit)++;
@@ -102,8 +102,8 @@ TEST(HardShadows, DeltaLights_HaveNoPenumbra) {
   EXPECT_GT(dark, 30);
 }
 
-// Two dozen lights of both kinds and an area light: one is chosen for every sample, the mean is the sum. t-tests
-// at alpha = 1e-6, six of them, fixed seeds.
+// Up to two dozen delta lights of both kinds and an area light. Each sample selects one, and the mean is the sum. Six
+// t-tests at alpha = 1e-6, fixed seeds.
 TEST(HardShadows, ManyLights) {
   for (const int n : {2, 5, 24}) {
     mc::Pcg random(4, std::uint64_t(n));
@@ -119,7 +119,7 @@ TEST(HardShadows, ManyLights) {
             PointLight(floor.space.point(d * w), Spectrum::Constant(Float(strength * floor.scale * floor.scale)))));
       else floor.builder.add(Light(DirectionalLight(floor.space.vector(-w), Spectrum::Constant(Float(strength)))));
     }
-    // A ball of light that hides nobody: L sin^2 a, straight above and farther than all.
+    // A spherical light that occludes no other light, straight above and farther than all: L sin^2 a.
     floor.builder.add(Sphere(floor.space.point({0, 40, 0}), 1e-2 * floor.scale),
                       {floor.gray, Emission{Spectrum::Constant(1e6f)}});
     expected += rho * 1e6 * mc::sqr(1e-2 / 40);
@@ -132,7 +132,8 @@ TEST(HardShadows, ManyLights) {
   }
 }
 
-// In the middle of a ball of radius R and albedo a: a I / (pi R^2) at first, and a share of a of that again and again.
+// In the middle of a ball of radius R and albedo a the first reflection is a I / (pi R^2). Each further one is a times
+// the one before.
 TEST(HardShadows, APointInAFurnace) {
   for (const double a : {0.2, 0.5, 0.8}) {
     SceneBuilder builder;
@@ -143,23 +144,23 @@ TEST(HardShadows, APointInAFurnace) {
     for (const char* strategy : {"nee", "mis"}) {
       const mc::Moments m =
           support::traced(scene, {Vec3(2, 2, 3), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy)}, 20'000);
-      // Only roulette makes it vary.
+      // Only roulette adds variance.
       EXPECT_NEAR(m.mean(), expected, 1e-4 * expected + 5 * m.std_error()) << strategy << ", albedo " << a;
     }
   }
 }
 
-// A flat mirror, a mesh, throws parallel light onto the floor, beside what falls there straight: rho / pi (cos + tint
-// cos'). Boxes of glass under the floor, up to more than have a ball each, change nothing. Student's t of 16 pictures.
+// A flat mirror reflects parallel light onto the floor, in addition to direct light: rho / pi (cos + tint cos'). Boxes
+// of glass below the floor, up to more than have a ball each, have no effect. Student's t of 16 images.
 TEST(HardShadows, MirrorReflectsDirectionalLight) {
   mc::Pcg random(6);
   for (int i = 0; i < 24; ++i) {
     Floor floor(random);
-    Vec3d sun, way; // from the origin to the sun, and to the mirror
+    Vec3d sun, way; // directions from the origin to the sun and to the mirror
     do sun = random_direction(random);
     while (sun.y() < 0.2);
     do way = random_direction(random);
-    while (way.y() < 0.3 || way.y() > 0.8 || way.dot(sun) > 0.7); // beside the camera's view and the sun's
+    while (way.y() < 0.3 || way.y() > 0.8 || way.dot(sun) > 0.7); // outside the camera's view and the sun's rays
     const Vec3d mirror = 2 * way;
     const Float tint = Float(0.5 + 0.5 * random.uniform<double>());
     floor.builder.add(
@@ -192,7 +193,7 @@ TEST(HardShadows, MirrorReflectsDirectionalLight) {
   }
 }
 
-// A scene file moved far away is the same scene, its points of light included.
+// A scene file that is moved far away is the same scene, with its point lights.
 struct MovedLights : support::ScratchTest {};
 TEST_F(MovedLights, AreTheSame) {
   for (const double m : {0.0, 1e5, 1e8}) {
@@ -208,8 +209,8 @@ TEST_F(MovedLights, AreTheSame) {
             m, m + 1));
     const Scene scene = read_mitsuba(file).scene;
     const Ray ray = scene.camera().ray(Vec2(Float(0.5), Float(0.5)), scene.camera().tan_half(1), Vec2(0, 0));
-    // The point's 2 / 5^1.5 and the sun's 1, which falls straight down, of the default reflectance .5; one of two
-    // lights a sample, each with its part of nine tenths by what it gives and of a tenth.
+    // The point light causes 2 / 5^1.5 and the sun, at normal incidence, 1; the default reflectance is .5. Each sample
+    // selects one of the two lights.
     const mc::Moments mean = support::traced(scene, ray, {strategy_from("nee"), 2}, 20'000);
     EXPECT_NEAR(mean.mean(), 0.5 / mc::pi<double> * (1 + 2 / std::pow(5, 1.5)), 5 * mean.std_error()) << m;
     EXPECT_GT(mean.std_error(), 0);

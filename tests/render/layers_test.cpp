@@ -9,7 +9,7 @@ namespace {
 
 using namespace render;
 
-// A ball of one colour before a plate of squares of three quarters of a unit, seen along +z through 90 degrees.
+// A ball of one colour before a plate of squares of .75 units, viewed along +z with a field of view of 90 degrees.
 Scene ball_before_plate(const Bsdf& of_ball) {
   SceneBuilder builder;
   const BsdfId ball = builder.add(of_ball);
@@ -19,7 +19,7 @@ Scene ball_before_plate(const Bsdf& of_ball) {
   builder.add(Sphere(Vec3d(0, 0, 3), 1), {ball});
   LensOptions lens;
   lens.fov = 90;
-  lens.radius = 0.3; // the layers look through its middle
+  lens.radius = 0.3; // layers use the centre of the lens
   lens.focus_distance = 3;
   builder.set(ThinLens(Transform(), lens));
   return builder.build();
@@ -40,7 +40,7 @@ LayerValues at(const std::map<std::string, std::vector<float>>& l, std::size_t i
           v("id")};
 }
 
-// Every pixel by the formula of the ray through its middle; the film's x runs against the world's.
+// Every pixel follows the formula for the ray through its centre. The film's x axis is opposite to the world's.
 TEST(Layers, AreWhatTheRayThroughTheMiddleMeets) {
   const Spectrum color(Float(0.7), Float(0.2), Float(0.1));
   const auto l = layers(ball_before_plate(Lambert(color)), extent);
@@ -94,7 +94,8 @@ TEST(Layers, PositionsAreThoseOfTheFile) {
   EXPECT_EQ(at(there, middle).z, at(here, middle).z);
 }
 
-// Glass and mirrors send on what they get; gloss within the bound that the header states, against far more points.
+// Glass and mirrors scatter all light according to their colours. Glossy surfaces are within the bound of the header,
+// by comparison with far more points.
 TEST(Layers, AlbedoOfWhatIsNotDiffuse) {
   const auto of_middle = [](const Bsdf& bsdf) {
     return at(layers(ball_before_plate(bsdf), extent), 16 * 32 + 16).albedo;
@@ -106,7 +107,7 @@ TEST(Layers, AlbedoOfWhatIsNotDiffuse) {
          {Bsdf(RoughPlastic(Float(1.5), Float(alpha), Spectrum::Constant(Float(0.5)), Spectrum::Ones())),
           Bsdf(RoughDielectric(Float(1.5), Float(alpha)))}) {
       mc::Pcg random(1);
-      const Vec3 wo = Vec3(Float(0.05), 0, 1).normalized(); // nearly that of the pixel
+      const Vec3 wo = Vec3(Float(0.05), 0, 1).normalized(); // nearly the direction of the pixel
       double sum = 0;
       const int n = 40'000;
       for (int i = 0; i < n; ++i) {

@@ -12,8 +12,8 @@ namespace {
 
 using namespace render;
 
-/// A white floor that fills the view, a lamp above and a white ceiling that are not seen, and a ball of glass beyond.
-///   unit : of all lengths
+/// A white floor fills the view. A lamp, a white ceiling above and a ball of glass are outside the view.
+///   unit : scale of all lengths.
 Scene lit_floor(const Filter& filter, double unit = 1) {
   SceneBuilder builder;
   builder.add(TriangleMesh::rectangle(Transform::scale({9 * unit, 9 * unit, unit})), {builder.add(Lambert())});
@@ -33,7 +33,7 @@ struct PassResult {
   RenderStats stats;
 };
 
-// `steps` calls for all paths of `spp` samples a pixel.
+// Traces all paths of `spp` samples per pixel in `steps` calls.
 PassResult run_pass(const Filter& filter, std::uint64_t steps, int threads, PixelSampler sampler = PixelSampler::sobol,
                     const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
   const Scene scene = lit_floor(filter, unit);
@@ -46,7 +46,7 @@ PassResult run_pass(const Filter& filter, std::uint64_t steps, int threads, Pixe
     EXPECT_EQ(pass.add_paths(
                   i * n / steps, (i + 1) * n / steps, threads, [] { return false; }, all.film, all.stats),
               (i + 1) * n / steps);
-  for (int y = 0; y < part.height; ++y) // what a pixel needs to have an estimate
+  for (int y = 0; y < part.height; ++y) // every pixel needs samples to have an estimate
     for (int x = 0; x < part.width; ++x)
       for (int set = 0; set < 4; ++set) all.film.add(x, y, set, Eigen::Array3d::Zero(), spp / 4);
   return all;
@@ -59,7 +59,8 @@ double sum(const Film& film) {
   return total;
 }
 
-// A path from the lights for eight samples would be none of a single pixel: its mean of 4000 seeds is that of much.
+// With a light path for eight samples, a single pixel would have none. Its mean over 4000 seeds equals the mean of many
+// samples.
 TEST(LightTracingPass, TinyImages_KeepLightTracing) {
   const Scene scene = lit_floor(BoxFilter());
   const auto mean_of = [&](unsigned spp, int seeds) {
@@ -73,10 +74,10 @@ TEST(LightTracingPass, TinyImages_KeepLightTracing) {
   };
   const mc::Moments one = mean_of(1, 4000), many = mean_of(4096, 8);
   EXPECT_LE(one.std_error(), 0.02 * many.mean());
-  EXPECT_NEAR(one.mean(), many.mean(), 4 * std::hypot(one.std_error(), many.std_error())); // alpha 1e-4
+  EXPECT_NEAR(one.mean(), many.mean(), 4 * std::hypot(one.std_error(), many.std_error())); // alpha = 1e-4
 }
 
-// In whatever steps and threads, up to the rounding of sums that are added in the same order.
+// Steps and threads change results only by the rounding of sums in the same order.
 TEST(LightTracingPass, IsIndependentOfStepsAndThreads) {
   for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
     const PassResult single = run_pass(BoxFilter(), 1, 1, sampler), threaded = run_pass(BoxFilter(), 1, 3, sampler);
@@ -96,9 +97,9 @@ TEST(LightTracingPass, IsIndependentOfStepsAndThreads) {
   }
 }
 
-// On a floor that is lit nearly alike all filters give the same light: none is lost at the edges or counted twice. Some
-// 10,000 paths arrive, a sixth of them so close to an edge that the filter decides: of the difference 1.5 % is four
-// standard deviations.
+// On an almost evenly lit floor all filters give the same light: none is lost or counted twice at the edges. About
+// 10,000 paths arrive, a sixth of them so close to an edge that the filter matters. Four standard deviations of the
+// difference are 1.5 %.
 TEST(LightTracingPass, FiltersConserveEnergy) {
   const auto light = [](const Filter& filter) {
     return sum(run_pass(filter, 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 16'000).film);
@@ -109,7 +110,7 @@ TEST(LightTracingPass, FiltersConserveEnergy) {
     EXPECT_NEAR(light(filter) / expected, 1, 0.015);
 }
 
-// Lengths up to 1e18: the area of a lamp that large is hardly a float, nor is the density of a pixel over it. Rounding
+// Lengths up to 1e18: the area of such a lamp and the density of a pixel over it are at the limits of float. Rounding
 // moves a few paths across the edges of pixels.
 TEST(LightTracingPass, IsScaleInvariant) {
   const double expected = sum(run_pass(BoxFilter(), 1, 2).film);

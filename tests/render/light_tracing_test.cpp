@@ -1,5 +1,4 @@
-// Pictures of scenes made by machine: paths from the lights and the camera together make what those from the camera
-// make alone.
+// Random scenes: light paths and camera paths together agree with camera paths alone.
 
 #include <render/integrator/light_tracer.h>
 
@@ -11,7 +10,7 @@ namespace {
 
 using namespace support;
 
-// Sixty rooms, 16 pictures by each way; every way to render in turn.
+// Sixty rooms with 16 images of each method. The ways to render alternate.
 TEST(LightTracingRender, MatchesMisImages) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.scenes < 60; ++i) {
@@ -27,13 +26,13 @@ TEST(LightTracingRender, MatchesMisImages) {
     options.adaptive = i % 5 == 1;
     options.splat = i % 5 == 2;
     agreement.add(i, one, picture_means(scene, options, 16, unit),
-                  2.05); // of Student's t with some 28 degrees of freedom
+                  2.05); // Student's t with about 28 degrees of freedom
   }
-  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
+  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: more than 10 with probability 1/3000
 }
 
-// Forty rooms of points and parallel light, and the same of the spheres that these stand for, which paths from the
-// camera meet.
+// Forty rooms with point and directional lights, against small spherical lights in their place, which camera paths can
+// hit.
 TEST(LightTracingRender, DeltaLights_MatchSmallSphereLights) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.scenes < 40; ++i) {
@@ -45,12 +44,12 @@ TEST(LightTracingRender, DeltaLights_MatchSmallSphereLights) {
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
     const std::vector<Spectrum> unit = pixel_units(reference);
     agreement.add(i, picture_means(spheres, options, 12, unit), picture_means(deltas, options, 12, unit),
-                  2.07); // with some 22
+                  2.07); // about 22 degrees of freedom
   }
-  EXPECT_LE(agreement.outliers, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
+  EXPECT_LE(agreement.outliers, 8); // of 40 at 5 %: more than 8 with probability 1/2000
 }
 
-/// A room that light paths pay in.
+/// A room in which light paths pay.
 Scene lit_room() {
   for (std::uint64_t i = 100;; ++i)
     if (Scene scene = RandomScene(i).build(); LightTracer::create(scene, strategy_from("mis+lt"), 1)) return scene;
@@ -92,9 +91,9 @@ TEST(LightTracingRender, ShortPaths_SkipLightTracing) {
     EXPECT_TRUE((two.image.pixels[i] == one.image.pixels[i]).all());
 }
 
-// Over 200 pictures the stated variance of the pixels is the true one, spent evenly and where the error is: the mean of
-// 48 pixels and 3 channels of 200 x 3 degrees of freedom each, of values that are far from normal and of neighbours
-// that share paths: to a tenth. The floor of Film::estimate may put it above.
+// Over 200 images the stated variance of pixels equals the actual variance, with even and adaptive sampling. The mean
+// is over 48 pixels and 3 channels of 200 x 3 degrees of freedom each. Values are far from normal and neighbours share
+// paths, so the tolerance is a tenth. The lower bound of Film::estimate may add to the stated variance.
 TEST(LightTracingRender, StatedVarianceMatchesActual) {
   const Scene scene = lit_room();
   RenderOptions options = options_of(0, 32);

@@ -1,4 +1,4 @@
-// Pictures whose pixels share paths by tiles.
+// Renders with path reuse in tiles.
 
 #include <render/integrator/light_tracer.h>
 
@@ -20,7 +20,7 @@ RenderOptions options_of_tiles(int spp) {
   return options;
 }
 
-/// A lamp over a floor and a ball, between two walls.
+/// A lamp above a floor and a ball, between two walls.
 Scene corner() {
   SceneBuilder builder;
   const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4))));
@@ -38,8 +38,8 @@ Scene corner() {
   return builder.build();
 }
 
-// Sixty rooms, lit by lamps or points, 16 pictures by each way; every strategy that tells of its lights, and every
-// sampler, in turn.
+// Sixty rooms with area or point lights and 16 images of each method. Strategies that find the lights, and samplers,
+// alternate.
 TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.scenes < 60; ++i) {
@@ -54,12 +54,12 @@ TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
     options.tiles = true;
     options.seed += 1'000'000;
     agreement.add(i, one, picture_means(scene, options, 16, unit),
-                  2.05); // of Student's t with some 28 degrees of freedom
+                  2.05); // Student's t with about 28 degrees of freedom
   }
-  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
+  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: more than 10 with probability 1/3000
 }
 
-// A room that light paths pay in, too.
+// Including a room in which light paths pay.
 TEST(PathReuseRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
   for (const Scene& scene : {corner(), RandomScene(100).build()})
     for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
@@ -90,7 +90,7 @@ TEST(PathReuseRender, IsUnbiasedWithHonestErrorBars) {
   }
 }
 
-// Tiles that get more samples where the error is stay what they were.
+// Adaptive sampling of tiles does not change the mean.
 TEST(PathReuseRender, Adaptive_IsUnbiased) {
   const Scene scene = corner();
   RenderOptions options = options_of_tiles(48);

@@ -16,7 +16,7 @@ TEST(PixelSampler, NamesAreTheirOwnInverse) {
     EXPECT_EQ(sampler_from(name(s)), s);
 }
 
-// Whatever is asked for at once, sample k is point k / sets of set k % sets; a stratified set goes on with another.
+// For any ranges, sample k is point k / sets of set k % sets. A stratified set continues with another randomisation.
 TEST(PixelPoints, AssignSamplesRoundRobin) {
   for (const PixelSampler sampler : {PixelSampler::sobol, PixelSampler::stratified}) {
     const PixelPoints points(sampler, 7, 3);
@@ -36,7 +36,7 @@ TEST(PixelPoints, AssignSamplesRoundRobin) {
   }
 }
 
-// Pixels, passes and seeds have points of their own.
+// Pixels, passes and seeds have independent points.
 TEST(PixelPoints, DependOnPixelPassAndSeed) {
   using Points = mc::SobolPairs;
   const PixelPoints one(PixelSampler::sobol, 7, 1), two(PixelSampler::sobol, 8, 1);
@@ -48,8 +48,8 @@ TEST(PixelPoints, DependOnPixelPassAndSeed) {
   EXPECT_NE(two.point_set<Points>(3, 4, {0, 0, 1}).seed, seed);
 }
 
-// The rays of a part are those of the whole: of a picture of 4x2 pixels, seen at a right angle, the upper left pixel's
-// centre lies 3/4 to the left and 1/4 up, in units of half the width.
+// The rays of a crop are the rays of the full image. In an image of 4x2 pixels with a field of view of 90 degrees, the
+// centre of the upper left pixel is 3/4 to the left and 1/4 up, in units of half the width.
 TEST(PixelRays, CroppedRaysEqualFullRays) {
   SceneBuilder builder;
   builder.add(Light(ConstantBackground(Spectrum::Ones())));

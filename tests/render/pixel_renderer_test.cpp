@@ -15,7 +15,7 @@ Scene ball_under_the_sky() {
   return builder.build();
 }
 
-// Samples taken in any parts are the samples taken at once.
+// Samples in several calls equal samples in one call.
 TEST(PixelRenderer, SplitCallsMatchOneCall) {
   const Scene scene = ball_under_the_sky();
   for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
@@ -33,7 +33,7 @@ TEST(PixelRenderer, SplitCallsMatchOneCall) {
       const PixelEstimate a = whole.estimate(x, 1), b = parts.estimate(x, 1);
       EXPECT_EQ(a.samples, all[std::size_t(x)]);
       EXPECT_EQ(a.sets, 4);
-      // Sums of the same numbers in another order.
+      // The sums have the same terms in another order.
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(a.mean[c], b.mean[c], 1e-12) << name(sampler);
         EXPECT_NEAR(a.variance[c], b.variance[c], 1e-12) << name(sampler);
@@ -55,8 +55,8 @@ TEST(RenderStats, KeepsTheFirstInvalidSampleInAnyOrder) {
   EXPECT_EQ(a.first_invalid.x, 5);
 }
 
-// A lamp seen by a camera in the middle of a ball. What fills the ball is met only by rays that start in it, which are
-// not those of a lens beyond its edge, or of a plane beyond it before which all is cut away.
+// A camera in the middle of a ball shows a lamp. The ball's medium absorbs only along rays that start inside. Rays from
+// a lens or a near plane that extends beyond the ball start outside.
 TEST(PixelRenderer, CameraRaysStartInEnclosingMedium) {
   const auto seen = [](const LensOptions& lens, bool filled) {
     SceneBuilder builder;

@@ -1,4 +1,4 @@
-// The gallery against the small pictures of tests/refs, which carlo rendered with many independent samples.
+// The gallery against the small images of tests/refs, which carlo rendered with many independent samples.
 
 #include <render/io/image/image_io.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -13,9 +13,9 @@ namespace {
 
 struct Gallery : testing::TestWithParam<const char*> {};
 
-// The sums over blocks of 4x4 pixels, and over the picture, differ by at most 5 standard errors. One of the 1821 normal
-// numbers of all scenes would do so by chance for one seed in a thousand; the seed is fixed. The variance of our pixels
-// is taken from that of the reference, whose 8192 samples know it better than our 256.
+// Sums over blocks of 4x4 pixels and over the image differ by at most 5 standard errors. With 1821 normal numbers in
+// all scenes this fails for one seed in a thousand. The seed is fixed. The variance of our pixels follows from the
+// reference, because its 8192 samples estimate it better than our 256.
 TEST_P(Gallery, AgreesWithItsReference) {
   const std::string name = GetParam();
   const render::Image reference = render::read_image(MC_SOURCE_DIR "/tests/refs/" + name + ".exr");
@@ -31,7 +31,7 @@ TEST_P(Gallery, AgreesWithItsReference) {
   ASSERT_EQ(result.invalid, 0u);
   const double variances = 1 + std::stod(reference.metadata.at("carlo.samples_per_pixel")) / options.spp;
 
-  // The same pixels of both, summed: the difference, and its standard error.
+  // Difference of the sums over the same pixels, and its standard error.
   const auto off = [&](int x0, int y0, int width, int height, int channel) {
     double difference = 0, variance = 0;
     for (int y = y0; y < y0 + height; ++y)
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Gallery,
                                          "filter-gaussian", "mesh-formats", "hard-shadows", "one-bounce", "globe",
                                          "leaves", "metals", "tinted-glass", "blinn-phong"),
                          [](const auto& scene) {
-                           std::string name = scene.param; // of a test: without hyphens
+                           std::string name = scene.param; // names of tests have no hyphens
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

@@ -15,8 +15,8 @@ using namespace render;
 
 constexpr PixelSampler samplers[] = {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol};
 
-/// Two spheres, the right one of glass unless given, on a plane under a small sphere light and a dim sky. The light is
-/// not in view where the tangent of half the field of view is .25.
+/// Two spheres, the right one of glass by default, on a plane under a small spherical light and a dim sky. The light is
+/// outside the view if the tangent of half the field of view is .25.
 Scene small_scene(Float sky = Float(0.1), double tan_half = 0.4, const Bsdf& right = Dielectric()) {
   SceneBuilder builder;
   const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4)))), glass = builder.add(right);
@@ -63,10 +63,10 @@ TEST(Render, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-// Two seeds differ by what their error bars say: the sum of squared differences is that of the variances. Pixels are
-// weighted by the mean variance of sixteen other renders, or a few caustic pixels would decide: one alone, of four
-// replicates, is itself too noisy to weigh by. Over 16 pairs the ratio was .96 to 1.03 in eighteen trials, a standard
-// deviation of .02; over 32 pairs .08 is five and a half of them.
+// Renders of two seeds differ as their error bars state: the sum of squared differences equals the sum of the
+// variances. Each pixel is weighted by the mean variance of sixteen other renders. A variance from four replicates is
+// too noisy as a weight, and a few caustic pixels would dominate. Over 16 pairs the ratio has a standard deviation of
+// .02; over 32 pairs the bound of .08 is more than five of them.
 TEST(Render, ErrorBarsAreHonest) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : samplers) {
@@ -94,9 +94,9 @@ TEST(Render, ErrorBarsAreHonest) {
   }
 }
 
-/// Many seeds of one way to spend samples: of the picture's sums and of its pixels, in green.
+/// Statistics over many seeds of one kind of sampling: sums of the image and single pixels, in green.
 struct Seeds {
-  mc::Moments z, sums; ///< z: of the sum against `truth`, by its own error bar
+  mc::Moments z, sums; ///< z: error of the sum against `truth`, in units of its own error bar
   std::vector<mc::Moments> pixels;
 
   Seeds(const Scene& scene, RenderOptions options, std::uint64_t first, double truth) {
@@ -116,7 +116,7 @@ struct Seeds {
   }
 };
 
-// Samples where the error is: the mean of 200 pictures is the even one's, and their error bars say how far each is off.
+// Adaptive sampling: the mean of 200 images equals the mean of even sampling, and their error bars match their errors.
 // Sums of 120 pixels are nearly normal: alpha is 0.1 % for each of the three bounds.
 TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
   const Scene scene = small_scene(Float(0.1), 0.25, Lambert());
@@ -128,7 +128,7 @@ TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
   options.adaptive = true;
   const double truth = even.sums.mean();
   const Seeds adaptive(scene, options, 1000, truth);
-  // The truth is as uncertain as their mean.
+  // The truth has the uncertainty of the mean over even images.
   const double off = (adaptive.sums.mean() - truth) / std::hypot(adaptive.sums.std_error(), even.sums.std_error());
   EXPECT_LE(std::abs(off), 3.29);
   EXPECT_GE(adaptive.z.variance(), 0.70);
@@ -136,7 +136,7 @@ TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
   double squares = 0, compared = 0;
   for (std::size_t i = 0; i < 120; ++i) {
     const mc::Moments &a = adaptive.pixels[i], &e = even.pixels[i];
-    if (a.variance() == 0 && a.mean() == e.mean()) continue; // the sky alone
+    if (a.variance() == 0 && a.mean() == e.mean()) continue; // only the sky
     squares += mc::sqr(a.mean() - e.mean()) / (mc::sqr(a.std_error()) + mc::sqr(e.std_error()));
     ++compared;
   }
@@ -144,8 +144,8 @@ TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
   EXPECT_GE(mc::chi_square_tail(squares, compared), 0.001);
 }
 
-// The logarithm of the errors' ratio is -.07 on average, of 72 pictures, and its standard deviation .25, since errors
-// are themselves estimated: that of 24 pictures lies above .08 for one set of seeds in 700.
+// The logarithm of the ratio of the errors is -.07 on average over 72 images. Its standard deviation is .25, since
+// errors are estimates themselves. The mean of 24 images exceeds .08 for one set of seeds in 700.
 TEST(Render, Adaptive_HasNoLargerErrorThanUniform) {
   const Scene scene = small_scene(Float(0.1), 0.25);
   mc::Moments logarithms;
@@ -164,7 +164,7 @@ TEST(Render, Adaptive_HasNoLargerErrorThanUniform) {
 }
 
 TEST(Render, Adaptive_SpendsBudgetWhereErrorIs) {
-  const Scene scene = small_scene(Float(0.1), 0.25, Lambert()); // of caustics few pixels know their error
+  const Scene scene = small_scene(Float(0.1), 0.25, Lambert()); // in caustics few pixels have valid error bars
   for (const PixelSampler sampler : samplers) {
     RenderOptions options = small();
     options.sampler = sampler;
@@ -208,7 +208,7 @@ TEST(Render, StratifiedAndSobolBeatIndependent) {
 }
 
 TEST(Render, CountsInvalidSamplesAndKeepsTheFirst) {
-  // Finite where it is seen directly; where both branches of a path meet it their sum overflows.
+  // Direct views of the sky are finite. If both branches of a path hit it, their sum overflows.
   const Scene scene = small_scene(std::numeric_limits<Float>::max());
   RenderOptions options = small();
   options.spp = 8;
@@ -233,7 +233,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   const RenderResult exact = render::render(scene, options);
   EXPECT_LE(exact.relative_error, 0.05);
   EXPECT_EQ(exact.estimates, 2u);
-  std::uint64_t of_picture = 0, of_worst = 0; // rounds end where they do: one seed says little
+  std::uint64_t of_picture = 0, of_worst = 0; // the ends of rounds are random, so one seed is not enough
   for (options.seed = 0; options.seed < 16; ++options.seed) {
     options.error_scope = ErrorScope::image;
     of_picture += render::render(scene, options).samples;
@@ -244,7 +244,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   }
   EXPECT_GT(of_worst, of_picture);
   options.error_scope = ErrorScope::image;
-  options.strategy = strategy_from("mis"); // paths from the lights leave less that is uneven
+  options.strategy = strategy_from("mis"); // light paths leave less uneven noise
   std::uint64_t adaptive = 0, even = 0;
   for (options.seed = 0; options.seed < 8; ++options.seed) {
     options.adaptive = true;
@@ -259,7 +259,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   const RenderResult timed = render::render(scene, options);
   EXPECT_EQ(timed.estimates, 2u);
   EXPECT_FALSE(timed.partial);
-  options.seconds = 1e-9; // the first round is whole
+  options.seconds = 1e-9; // the first round is always completed
   const RenderResult least = render::render(scene, options);
   EXPECT_EQ(least.samples, 2u * 24 * 20);
   EXPECT_FALSE(least.partial);
@@ -271,11 +271,11 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   EXPECT_TRUE(cancelled.partial);
   EXPECT_EQ(cancelled.samples, 0u);
 
-  // Cancelled in the second round: a whole picture with variance. Cancelled after the last: it is not partial.
+  // Cancelled in the second round, the image is complete with variances. Cancelled after the last, it is not partial.
   const std::pair<PixelSampler, int> cases[] = {{PixelSampler::independent, 64},
                                                 {PixelSampler::stratified, 64},
                                                 {PixelSampler::sobol, 64},
-                                                {PixelSampler::sobol, 61}}; // passes of one point
+                                                {PixelSampler::sobol, 61}}; // randomisations of one point
   for (const auto& [sampler, spp] : cases)
     for (const bool late : {false, true}) {
       std::atomic<bool> halt = false;
@@ -293,7 +293,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
     }
 }
 
-// One sample of the rare bright kind leaves most pixels undecided; many of them few.
+// One sample of a rare bright kind leaves most pixels outlier-dominated. Many such samples leave few.
 TEST(Render, Target_WaitsForOutlierDominatedPixels) {
   SceneBuilder builder;
   const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
@@ -313,7 +313,7 @@ TEST(Render, Target_WaitsForOutlierDominatedPixels) {
   options.target_error = 2;
   const RenderResult early = render::render(scene, options);
   EXPECT_LE(early.outlier_dominated, max_outlier_dominated);
-  EXPECT_GT(early.unreliable_target_spp, 0); // by that error alone it would have stopped
+  EXPECT_GT(early.unreliable_target_spp, 0); // the error alone would have ended the render
   EXPECT_LT(early.unreliable_target_spp, early.spp);
   options.target_error = {};
   options.spp = 256;
@@ -351,7 +351,7 @@ TEST(Render, RejectsBadOptions) {
   }
 }
 
-// The pixels of a part are those of the whole picture, with their variance, by every sampler.
+// The pixels of a crop equal the pixels of the full image, with their variances, for every sampler.
 TEST(Render, ACropIsAPartOfTheWhole) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {

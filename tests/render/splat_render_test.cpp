@@ -11,7 +11,7 @@ namespace {
 using namespace render;
 using namespace support;
 
-/// A ball on a plane, both in view, under a spherical lamp that is not, and a dim sky.
+/// A ball on a plane in view, under a spherical lamp outside the view and a dim sky.
 Scene ball_on_plane(const Filter& filter) {
   SceneBuilder builder;
   const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4))));
@@ -53,7 +53,7 @@ TEST(SplatRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
   }
 }
 
-// A filter that is no wider than a pixel has nothing to share: its pictures stay as they are.
+// A filter that is no wider than a pixel has nothing to share: images stay the same.
 TEST(SplatRender, NarrowFilter_EqualsUnsplatted) {
   const Scene scene = ball_on_plane(BoxFilter());
   RenderOptions options = splatted(8);
@@ -63,8 +63,8 @@ TEST(SplatRender, NarrowFilter_EqualsUnsplatted) {
   EXPECT_EQ(a.noise_area, 1);
 }
 
-// At the edges too, with less noise. That of the sum is stated too large, since pixels at the edge share their noise
-// with some that are not there.
+// Also at the edges, and with less noise. The stated error of the sum is too large, since pixels at the edge share
+// noise with pixels outside the film.
 TEST(SplatRender, IsUnbiasedWithHonestErrorBars) {
   for (const Filter& filter : {Filter(GaussianFilter()), Filter(TentFilter())}) {
     const Scene scene = ball_on_plane(filter);
@@ -93,7 +93,7 @@ TEST(SplatRender, StopsByTimeErrorOrCancelWithWholeRounds) {
   EXPECT_GE(by_time.spp, 4);
   EXPECT_EQ(by_time.spp, std::round(by_time.spp)) << "rows differ";
   EXPECT_FALSE(by_time.partial);
-  // Cancelled in the second round: the first is whole.
+  // Cancelled in the second round: the first round is complete.
   std::atomic<bool> cancel = false;
   options = splatted(1 << 20);
   options.cancel = &cancel;

@@ -15,7 +15,7 @@ Scene floor_under_the_sky() {
   return builder.build();
 }
 
-// Samples taken in any parts are the samples taken at once; tiles that a film cuts belong to its first row.
+// Samples in several calls equal samples in one call. Tiles that the film cuts belong to its first row.
 TEST(TileRenderer, SplitCallsMatchOneCall) {
   const Scene scene = floor_under_the_sky();
   for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
@@ -37,7 +37,7 @@ TEST(TileRenderer, SplitCallsMatchOneCall) {
         const PixelEstimate a = whole.estimate(x, y), b = parts.estimate(x, y);
         EXPECT_EQ(a.samples, 40u);
         EXPECT_GT(whole.rays(x, y), 0u);
-        // Sums of the same numbers in another order.
+        // The sums have the same terms in another order.
         for (int c = 0; c < 3; ++c) {
           EXPECT_NEAR(a.mean[c], b.mean[c], 1e-12) << name(sampler);
           EXPECT_NEAR(a.variance[c], b.variance[c], 1e-12) << name(sampler);
@@ -46,7 +46,7 @@ TEST(TileRenderer, SplitCallsMatchOneCall) {
   }
 }
 
-// A sky too bright for floats spoils the samples of every pixel of a tile that sees it, and each is counted.
+// A sky that is too bright for floats makes the samples of all pixels of a tile invalid, and each is counted.
 TEST(TileRenderer, CountsInvalidSamples) {
   SceneBuilder builder;
   builder.add(Light(ConstantBackground(Spectrum::Constant(std::numeric_limits<Float>::max()))));

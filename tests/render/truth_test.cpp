@@ -1,5 +1,5 @@
-// Scenes made by machine: what every strategy and sampler says of them lies about the truth as its error bar says. A
-// few of the hundreds that bench_render_truth tries, seeds fixed.
+// Random scenes: for every strategy and sampler the errors match the error bars. These are a few of the hundreds of
+// scenes of bench_render_truth, with fixed seeds.
 
 #include <render/truth/measure.h>
 
@@ -22,8 +22,8 @@ Truth truth_of(const Family& family, std::uint64_t seed) {
   return {m.means.mean(), m.means.std_error(), double(m.means.count() - 1)};
 }
 
-// Strategies that look for the lights, all samplers in turn. Skew makes a z-score of 4 of what is 3, so 6 is the bound;
-// of a few hundred, one in twenty is beyond 1.96 by chance.
+// Strategies that sample lights or aim at them, and all samplers in turn. Skewness makes a z-score of 3 as large as 4,
+// so the bound is 6. By chance one z-score in twenty exceeds 1.96.
 void expect_right(Family (*make)(mc::Pcg&), int families) {
   int tried = 0, beyond = 0;
   for (int i = 0; i < families; ++i) {
@@ -52,7 +52,7 @@ TEST(Truth, OfFurnaces) { expect_right(furnace, 30); }
 TEST(Truth, OfDirectLight) { expect_right(direct_light, 30); }
 TEST(Truth, OfRooms) { expect_right(room, 4); }
 
-// The scores see what is wrong by two hundredths.
+// The scores detect an error of two hundredths.
 TEST(Truth, IsNotAnything) {
   mc::Pcg random(5);
   const Family family = furnace(random);
