@@ -1,8 +1,8 @@
 #ifndef MC_CHECK_PLUGIN_H
 #define MC_CHECK_PLUGIN_H
-/// Interface of plugins: distributions and integrands compiled to a shared library, for `carlo validate --plugin
-/// ./mine.so` and `carlo converge --plugin ./mine.so`. Any language that exports C functions works. This header is
-/// valid C99 and C++.
+/// Interface of plugins: distributions and integrands compiled to a shared library. Users pass the library as
+/// `carlo validate --plugin ./mine.so` or `carlo converge --plugin ./mine.so`. Any language that exports C functions
+/// works. This header is valid C99 and C++.
 ///
 ///   static int32_t sample(const void *self, const double *u, double *x) { ... }
 ///   static double pdf(const void *self, const double *x) { ... }
@@ -30,8 +30,7 @@ extern "C" {
 #endif
 
 /// Version of the structs below. carlo accepts plugins of this version and of every earlier version, and rejects later
-/// ones.
-///   2 : adds MC_PRODUCT, outcomes in addition to a density, breaks, open intervals and integrands.
+/// versions. Version 2 adds MC_PRODUCT, outcomes in addition to a density, breaks, open intervals and integrands.
 #define MC_PLUGIN_ABI 2
 
 /// The domain of the points x, and the measure of the density.
@@ -59,7 +58,8 @@ enum mc_scalar { MC_DOUBLE = 0, MC_FLOAT = 1 };
 typedef struct mc_parameter {
   const char* name; ///< letters, digits and _
   double value;     ///< the default value
-  double lo, hi;    ///< lo <= value <= hi
+  double lo,        ///< smallest value
+      hi;           ///< largest value
 } mc_parameter;
 
 /// A distribution: a domain, sample and pdf; the other functions are optional.
@@ -67,7 +67,8 @@ typedef struct mc_sampler {
   const char* name;        ///< letters, digits and _
   int32_t domain;          ///< one of mc_domain
   int32_t dim;             ///< dimension of MC_BOX: 1 to 3
-  double lo[3], hi[3];     ///< bounds of MC_INTERVAL, MC_BOX (all 0: the unit interval or cube) and MC_DISCRETE
+  double lo[3],            ///< lower bounds of MC_INTERVAL, MC_BOX (all 0: the unit interval or cube) and MC_DISCRETE
+      hi[3];               ///< upper bounds of the same domains
   int32_t uniforms;        ///< length of u for one sample, at most 6; 0: the dimension of the domain
   int32_t scalar;          ///< one of mc_scalar
   int32_t may_fail;        ///< 1: sample may return MC_FAILED, and the pdf integrates to the probability of success
@@ -112,12 +113,13 @@ typedef struct mc_sampler {
 
 /// An integral over a box, for `carlo converge --plugin` and `carlo trade --plugin`.
 typedef struct mc_integrand {
-  const char* name;      ///< letters, digits and _
-  const char* title;     ///< optional: one line
-  int32_t dim;           ///< dimension, 1 to 64
-  int32_t has_truth;     ///< 1: `truth` is the exact integral
-  double truth;          ///< the exact integral, if has_truth
-  const double *lo, *hi; ///< dim finite bounds each; NULL: the unit cube
+  const char* name;  ///< letters, digits and _
+  const char* title; ///< optional: one line
+  int32_t dim;       ///< dimension, 1 to 64
+  int32_t has_truth; ///< 1: `truth` is the exact integral
+  double truth;      ///< the exact integral, if has_truth
+  const double *lo,  ///< dim finite lower bounds; NULL: the unit cube
+      *hi;           ///< dim finite upper bounds
   /// Returns the integrand at x, an array of dim numbers.
   double (*eval)(const double* x);
   /// Optional: evaluates `count` points at once, values[i] = eval(x + i dim).

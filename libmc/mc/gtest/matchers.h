@@ -55,6 +55,7 @@ template <class W> testing::AssertionResult obeys_laws(const char* expression, c
   else return testing::AssertionFailure();
 }
 
+/// Result of EXPECT_BSDF_LAWS; the expression and wo name the subject unless the options do.
 template <class Bsdf, class S>
 testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsdf, const Vec3<S>& wo,
                                          BsdfOptions options = {}) {
@@ -65,6 +66,7 @@ testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsd
   else return testing::AssertionFailure();
 }
 
+/// Result of EXPECT_SAMPLES_MATCH_PDF.
 template <class Sample, class Pdf, Domain D>
 testing::AssertionResult samples_match_pdf(const char* expression, Sample sample, Pdf pdf, const D& domain,
                                            const SubjectOptions& options = {}) {

@@ -20,9 +20,9 @@ std::array<double, 2> beside(const AnyDistribution& s, double u) {
   return {std::nextafter(u, 0.0), std::nextafter(u, 1.0)};
 }
 
-// Tests single values of u. Faults of measure zero are counted separately. Examples are u with a coordinate of exactly 0,
-// and a density of 0 at one point, such as |x| at the centre. Points rounded onto an edge or a jump, where the density
-// may be 0 or infinite, are counted there too.
+// Tests single values of u. Faults of measure zero are counted separately. Examples are u with a coordinate of exactly
+// 0, and a density of 0 at one point, such as |x| at the centre. Points rounded onto an edge or a jump, where the
+// density may be 0 or infinite, are counted there too.
 class Probe {
  public:
   // accepted : faults of measure zero are accepted.

@@ -64,15 +64,20 @@ struct Check {
 
 /// A cell of the partition, or a discrete outcome, with a count far from the expected count.
 struct WorstCell {
-  std::array<double, 3> lo{}, hi{};         ///< chart coordinates; all 0 for an outcome
-  double observed = 0, expected = 0, z = 0; ///< counts, and their standardised difference
-  std::string where;                        ///< the centre of the cell as a point of the domain, or "outcome 3"
+  std::array<double, 3> lo{}, ///< lower corner in chart coordinates; 0 for an outcome
+      hi{};                   ///< upper corner in chart coordinates; 0 for an outcome
+  double observed = 0,        ///< observed number of samples
+      expected = 0,           ///< expected number of samples
+      z = 0;                  ///< (observed - expected) / sqrt(expected)
+  std::string where;          ///< the centre of the cell as a point of the domain, or "outcome 3"
 };
 
 /// Observed and expected number of samples in a cell.
 struct CellCount {
-  std::array<double, 3> lo{}, hi{}; ///< chart coordinates
-  double observed = 0, expected = 0;
+  std::array<double, 3> lo{}, ///< lower corner in chart coordinates
+      hi{};                   ///< upper corner in chart coordinates
+  double observed = 0,        ///< observed number of samples
+      expected = 0;           ///< expected number of samples
 };
 
 /// Data for the maps and curves of a page.
@@ -97,9 +102,10 @@ std::string describe_cell(const std::vector<Axis>& axes, const std::array<double
 
 /// A measured quantity that is reported without a verdict of its own, for example the white furnace albedo.
 struct ReportedValue {
-  std::string name;
-  double value = 0, std_error = 0; ///< the estimate and its standard error
-  std::string where;               ///< place or direction; may be empty
+  std::string name;  ///< name of the quantity
+  double value = 0,  ///< the estimate
+      std_error = 0; ///< its standard error
+  std::string where; ///< place or direction; may be empty
 };
 
 /// Amount of text that Report::to_string returns.
@@ -109,10 +115,11 @@ enum class ReportText : std::uint8_t { brief, full };
 
 /// All checks of one subject. Statistical checks share one family-wise alpha; see multiple_testing.h.
 struct Report {
-  std::string subject;             ///< name of the subject
-  double alpha = 0.01;             ///< family-wise level of the statistical checks
-  std::uint64_t samples = 0;       ///< number of counted samples
-  double mass = 1, mass_error = 0; ///< integral of the claimed density and the atoms, and its error bound
+  std::string subject;       ///< name of the subject
+  double alpha = 0.01;       ///< family-wise level of the statistical checks
+  std::uint64_t samples = 0; ///< number of counted samples
+  double mass = 1,           ///< integral of the claimed density and the atoms
+      mass_error = 0;        ///< error bound of mass
   /// Smallest relative error of the density that is detected with probability .99. The error has this size everywhere
   /// and a random sign in each patch. A patch has at least the probability of four cells (a thousandth for 1e6 samples)
   /// and is at most ten times as long as wide. For longer patches the smallest detected error is larger.

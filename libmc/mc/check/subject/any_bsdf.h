@@ -48,10 +48,12 @@ struct AnyBsdf {
   using Direction = Vec3<double>;
   /// A sampled direction.
   struct Sample {
-    Direction wi;                             ///< the sampled direction
-    double pdf = 0;                           ///< stated density [1/steradian], or probability of the delta lobe
-    bool delta = false, transmission = false; ///< delta lobe; wi and wo on opposite sides
-    Channels f, weight;                       ///< the stated values; count = 0 if the sample states none
+    Direction wi;             ///< the sampled direction
+    double pdf = 0;           ///< stated density [1/steradian], or probability of the delta lobe
+    bool delta = false,       ///< whether wi comes from a delta lobe
+        transmission = false; ///< whether wi and wo are on opposite sides
+    Channels f,               ///< the stated f; count = 0 if the sample states none
+        weight;               ///< the stated weight; count = 0 if the sample states none
   };
 
   bool is_float = false;      ///< the original computes in float

@@ -37,7 +37,7 @@ struct AnyDomain {
   using Coordinates = Subject::Coordinates;
   /// A point of the domain with the Jacobian of the chart.
   struct DomainPoint {
-    PointArray x{};
+    PointArray x{};      ///< the point
     double jacobian = 0; ///< |dx / dv| of from_unit
   };
   int dim = 0;            ///< dimension of the chart; 0: no domain, only discrete outcomes
@@ -79,10 +79,10 @@ struct AnyDistribution {
 
   /// The stated quantity of a sample (weight, pdf or f) that differs most from its recomputed value.
   struct Stated {
-    const char* name = "weight"; ///< name of the quantity
-    /// Stated and recomputed value.
-    double value = std::numeric_limits<double>::quiet_NaN(), expected = std::numeric_limits<double>::quiet_NaN();
-    const char* hint = ""; ///< the likely reason for the difference; may be empty
+    const char* name = "weight";                             ///< name of the quantity
+    double value = std::numeric_limits<double>::quiet_NaN(), ///< stated value
+        expected = std::numeric_limits<double>::quiet_NaN(); ///< recomputed value
+    const char* hint = "";                                   ///< the likely reason for the difference; may be empty
   };
 
   /// One sample with the values that it states.
@@ -154,8 +154,9 @@ struct ChartSample {
 /// Maps a sample to the chart and classifies it; no value counts as a failure.
 ChartSample to_chart(const AnyDistribution& distribution, const std::optional<AnyDistribution::Sample>& drawn);
 
-/// Returns u or x with all digits, for example "(0.25, 0.5)".
+/// Returns u with all digits, for example "(0.25, 0.5)".
 std::string format_u(const AnyDistribution& distribution, const AnyDistribution::Uniforms& u);
+/// Returns the coordinates of x with all digits, for example "(0.25, 0.5)".
 std::string format_x(const AnyDistribution& distribution, const PointArray& x);
 /// Returns "u = 0.5, x = 2, pdf = 1" or "u = 0.5, sample fails".
 std::string describe_sample(const AnyDistribution& distribution, const AnyDistribution::Uniforms& u);

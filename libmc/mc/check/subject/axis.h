@@ -25,7 +25,8 @@ struct Axis {
   /// Name of the quantity.
   std::string name = "v";
   Scale scale = Scale::linear; ///< the function
-  double a = 0, b = 1;         ///< its parameters
+  double a = 0,                ///< first parameter of the function
+      b = 1;                   ///< second parameter of the function
 
   /// Returns the quantity at v.
   double value(double v) const {

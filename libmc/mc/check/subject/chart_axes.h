@@ -32,6 +32,7 @@ template <Domain D> std::vector<Axis> chart_axes(const D&) {
   for (std::size_t i = 0; i < axes.size(); ++i) axes[i].name = D::dim == 1 ? std::string("v") : fmt::format("v{}", i);
   return axes;
 }
+/// @cond
 template <Real S> std::vector<Axis> chart_axes(const Interval<S>& d) {
   return {{"x", Axis::Scale::linear, static_cast<double>(d.lo), static_cast<double>(d.hi)}};
 }
@@ -78,5 +79,6 @@ template <Domain A, Domain B> std::vector<Axis> chart_axes(const ProductDomain<A
   }
   return axes;
 }
+/// @endcond
 
 } // namespace mc

@@ -27,10 +27,12 @@ class Oracle {
 
   /// Rounds to the nearest double.
   explicit operator double() const;
-  /// rounds once, to the nearest float
+  /// Rounds once, to the nearest float.
   explicit operator float() const;
   template <std::integral T> explicit operator T() const { return static_cast<T>(truncated()); } ///< rounds towards 0
 
+  /// @cond
+  // Arithmetic and comparisons, as for double.
   Oracle operator-() const;
   Oracle operator+() const { return *this; }
   Oracle& operator+=(const Oracle& b) { return *this = *this + b; }
@@ -43,7 +45,8 @@ class Oracle {
   friend Oracle operator/(const Oracle& a, const Oracle& b);
   friend bool operator==(const Oracle& a, const Oracle& b);
   friend std::partial_ordering operator<=>(const Oracle& a, const Oracle& b);
-  /// writes with the format and the precision of the stream
+  /// @endcond
+  /// Writes with the format and the precision of the stream.
   friend std::ostream& operator<<(std::ostream& out, const Oracle& x);
 
  private:
@@ -59,6 +62,8 @@ class Oracle {
   int kind_ = 2;
 };
 
+/// @cond
+// The functions of <cmath>, and erfc_inv, the inverse of erfc.
 Oracle abs(const Oracle& x);
 Oracle acos(const Oracle& x);
 Oracle asin(const Oracle& x);
@@ -115,3 +120,4 @@ template <> class std::numeric_limits<mc::Oracle> {
 template <> struct Eigen::NumTraits<mc::Oracle> : Eigen::GenericNumTraits<mc::Oracle> {
   static mc::Oracle dummy_precision() { return 1000 * std::numeric_limits<mc::Oracle>::epsilon(); }
 };
+/// @endcond

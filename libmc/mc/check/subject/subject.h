@@ -30,7 +30,13 @@ struct Subject {
   ///   not_finite : a coordinate is NaN or infinite.
   struct Draw {
     /// Kind of a draw.
-    enum class Kind : std::uint8_t { point, atom, failed, outside, not_finite } kind = Kind::point;
+    enum class Kind : std::uint8_t {
+      point,                  ///< a point of the domain
+      atom,                   ///< a discrete outcome
+      failed,                 ///< sample returned no value
+      outside,                ///< a finite point outside the domain
+      not_finite              ///< a coordinate is NaN or infinite
+    } kind = Kind::point;     ///< kind of the draw
     bool pdf_positive = true; ///< the claimed density at the drawn point is positive and finite
     int atom = -1;            ///< index of a discrete outcome (delta lobe, table index)
     Coordinates v{};          ///< chart coordinates

@@ -73,8 +73,8 @@ class MarginalBins {
     double expected = 0, p = 1;
     void compute_p(const Subject& s, const Pilot& pilot, IntervalQuery query, double n, double mass, Effort effort);
   };
-  /// Returns the query of a run with the pilot points inside. If these are fewer than 64, points of the bins next to the
-  /// run are added.
+  /// Returns the query of a run with the pilot points inside. If these are fewer than 64, points of the bins next to
+  /// the run are added.
   IntervalQuery interval_query(const BinRange& range) const;
   /// Whether rounding may explain the count of a run.
   bool is_rounded(const Subject& s, const Pilot& pilot, const BinRange& range) const;
