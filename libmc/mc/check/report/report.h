@@ -148,8 +148,8 @@ struct Report {
   /// Returns the observed value, the expected value and the place of the leading check; empty for a pass.
   std::string finding() const;
   /// Returns one line:
-  ///   "pass, p = 0.42 (1000000 samples, alpha 0.001); an error of the density of 3.8 % is detected (61 % in a single
-  ///     patch)"
+  ///   "pass, p = 0.42 (1000000 samples, alpha 0.001); an error of the density of 3.8 % is detected (61 % in a
+  ///   single patch)"
   ///   "fail: weight is 0.6, should be 0.5, at u = ..."
   ///   "fail, p = 1e-12 (20000 samples, alpha 0.001): region ... contains 120 samples, 64.0 expected"
   std::string verdict_text() const;
