@@ -40,9 +40,9 @@ struct CameraWiSample {
 
 /// A thin lens that is focused on a plane; with radius 0 a pinhole.
 ///   to_world : camera frame with x to the left, y up and z forward. The common length of the axes does not matter.
-///   throws   : Error unless the frame is finite, with axes that are not 0, of equal length and orthogonal up to 1e-4;
-///              and 0 < fov < 180, radius and near are finite and >= 0, focus_distance is finite and > 0, and far >
-///              near.
+///   throws   : Error unless the frame is finite, with axes that are not 0, of equal length and orthogonal up to 1e-4.
+///              Error unless 0 < fov < 180, radius and near are finite and >= 0, focus_distance is finite and > 0, and
+///              far > near.
 class ThinLens {
  public:
   /// A camera in a frame.

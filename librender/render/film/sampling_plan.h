@@ -30,7 +30,7 @@ struct Tiling {
 /// tiles, tiles take the place of pixels: one rate per tile, from the tiles within a distance of 8.
 ///   v     : variance / (r s + m^2 / 4) of one sample of a neighbour, averaged over channels. m is the image's mean
 ///           radiance and r the neighbour's radiance. s is the minimum of r and of the mean over its 3x3 pixels without
-///           the planned pixel, so that a rare bright sample is not divided by its own square.
+///           the planned pixel. So a rare bright sample is not divided by its own square.
 ///   c     : number of rays of one sample of a neighbour. Neighbours weigh by the inverse square of their distance.
 ///   rates : for ErrorScope::image a power of sqrt(v / c). The exponent is 0, .5, .75, 1 or 1.25, whichever minimizes
 ///           variance times rays over the other pixels of the pilot. Thus badly predicted variances cost little.

@@ -59,8 +59,8 @@ bool contains_area_light(const Scene& scene, const Sphere& sphere);
 
 /// Mixture of the BSDF and the targets of a strategy; all n targets are equally likely.
 ///   sample : a direction with its weight under the density of the whole mixture.
-///   pdf    : a / n sum_i pdf_i(wi) + (1 - a) pdf_bsdf(wi) [1/sr] with the guiding fraction a; delta lobes excluded,
-///            and no BSDF term for a guiding fraction of 1.
+///   pdf    : a / n sum_i pdf_i(wi) + (1 - a) pdf_bsdf(wi) [1/sr] with the guiding fraction a. It excludes delta lobes.
+///            For a strategy with guiding fraction 1 there is no BSDF term.
 ///   Source : [Veach97] section 9.2.4.
 /// The fraction a depends on the BSDF:
 ///   - A near-specular BSDF is always sampled by itself.

@@ -35,11 +35,11 @@ class LightTracer {
   /// Smallest number of edges of a light path, including the connection to the camera.
   static constexpr int min_edges = 3;
 
-  /// Returns a light tracer, or nothing if light paths do not pay:
-  ///   - the strategy has no light paths,
-  ///   - no light of the scene can emit them,
-  ///   - no surface casts caustics, or
-  ///   - the radius of the pixel filter exceeds SplatFilter::max_radius.
+  /// Returns a light tracer, or nothing if light paths do not pay. This is so in any of these cases.
+  ///   - The strategy has no light paths.
+  ///   - No light of the scene can emit them.
+  ///   - No surface casts caustics.
+  ///   - The radius of the pixel filter exceeds SplatFilter::max_radius.
   ///   aspect : width / height of the film.
   static std::optional<LightTracer> create(const Scene& scene, const Strategy& strategy, Float aspect);
 

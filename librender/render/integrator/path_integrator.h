@@ -24,9 +24,8 @@ struct PathOptions {
 ///   Splitting   : a path splits at its first non-delta vertex, by default in two. The path to this vertex and the
 ///                 direct lighting cost much of the time and contribute little of the variance [ArvoKirk90].
 ///   Roulette    : from the fourth edge on a path survives with probability min(.99, max(4, g) max(beta) eta_scale).
-///                 The factor 4 balances variance against cost. g is the guiding pdf ratio since the last rough vertex:
-///                 throughput toward a small lamp is as small as the lamp, and without g its paths would rarely
-///                 survive.
+///                 The factor 4 balances variance against cost. g is the guiding pdf ratio since the last rough vertex.
+///                 Without g, paths toward a small lamp would rarely survive: their throughput is as small as the lamp.
 /// See docs/methods/path-tracing.md and docs/methods/russian-roulette.md.
 template <class SceneType> class PathIntegrator {
  public:

@@ -199,8 +199,8 @@ template <class SceneType> class PathSteps {
     return true;
   }
 
-  /// Squared density ratio of light paths if a path at `isect` continued to `next` and `next` had a diffuse BSDF, up to
-  /// a factor that depends on `next` alone; 0 without light paths.
+  /// Squared density ratio of light paths if a path at `isect` continued to `next`. The BSDF at `next` is diffuse. The
+  /// result lacks a factor that depends on `next` alone; it is 0 without light paths.
   ///   d, pdf : direction from `isect` to `next`, with its density [1/sr].
   double mis_ratio_at(const SurfacePoint& next, const Interaction& isect, const PathState& state, const Vec3& d,
                       Float pdf) const {

@@ -11,13 +11,14 @@
 
 namespace render {
 
-/// Radiance from a latitude-longitude image. The local direction d maps to v = acos(d_y) / pi, with +y at the top row,
-/// and u = atan2(d_x, -d_z) / 2 pi: -z is at the left edge, +x at a quarter of the width.
+/// Radiance from a latitude-longitude image.
+///   u      : atan2(d_x, -d_z) / 2 pi for the local direction d. -z is at the left edge, +x at a quarter of the width.
+///   v      : acos(d_y) / pi. +y is at the top row.
 ///   Le     : bilinear between texel centres; u repeats, v ends at the poles.
 ///   sample : selects a texel in proportion to its mean luminance times its solid angle; uniform in (u, v) within.
 ///   pdf    : density in (u, v) over 2 pi^2 sin(theta) [1/sr].
-///   throws : Error unless all texels are finite and >= 0, some texel is not black, scale is finite and > 0, and
-///            to_world is a rotation up to 1e-3; a mirroring is allowed.
+///   throws : Error unless all texels are finite and >= 0, and some texel is not black. Error unless scale is finite and
+///            > 0. Error unless to_world is a rotation up to 1e-3; a mirroring is allowed.
 class Environment {
  public:
   /// A light of an image, rotated by `to_world`, with radiance times `scale`.

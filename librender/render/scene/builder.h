@@ -24,8 +24,8 @@ class SceneBuilder {
     std::string missing_uv_reason = {}; ///< Reason why the shape has no texture coordinates, for error messages.
   };
   /// Adds a surface.
-  ///   throws : Error for an unknown BSDF, a texture on a shape without texture coordinates, a mask on a surface that
-  ///            emits or has an interior medium, or a shape or emission that AreaLight rejects.
+  ///   throws : Error for an unknown BSDF, or for a texture on a shape without texture coordinates. Error for a mask on
+  ///            a surface that emits or has an interior medium. Error for a shape or emission that AreaLight rejects.
   void add(Shape shape, const SurfaceProperties& properties);
 
   /// Adds a light without a shape.

@@ -29,8 +29,8 @@ inline const double min_length = std::sqrt(double(std::numeric_limits<Float>::mi
 /// Longest length with a finite Float as its square.
 inline const double max_length = std::sqrt(double(std::numeric_limits<Float>::max()));
 
-/// A length outside [min_length, max_length]: the diagonal of a light's bounds if it is too short, or the diagonal of
-/// all surfaces' bounds if it is too long. None if there is no such length.
+/// A length of the scene outside [min_length, max_length], or none. It is the diagonal of a light's bounds if that is
+/// too short. It is the diagonal of all surfaces' bounds if that is too long.
 std::optional<double> length_out_of_range(const Scene& scene);
 
 } // namespace render
