@@ -135,8 +135,8 @@ struct Report {
 
   Verdict verdict() const; ///< fail if any check fails, else inconclusive if any is inconclusive, else pass
   bool passed() const { return verdict() == Verdict::pass; } ///< whether the verdict is pass
-  double
-  p() const; ///< family-wise adjusted p-value (weighted Sidak over the statistical checks); 1 without statistical checks
+  /// Returns the family-wise adjusted p-value, weighted Sidak over the statistical checks; 1 without such checks.
+  double p() const;
   /// Returns the check that explains the verdict; null for a pass. In order: the first failed deterministic law, except
   /// measure zero; the first failed statistical test; a measure zero failure; the first inconclusive check. A
   /// statistical test with p < 1e-9 precedes the laws of boundaries of u and of physics, because a wrong density breaks
