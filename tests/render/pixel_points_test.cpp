@@ -48,8 +48,8 @@ TEST(PixelPoints, DependOnPixelPassAndSeed) {
   EXPECT_NE(two.point_set<Points>(3, 4, {0, 0, 1}).seed, seed);
 }
 
-// The rays of a crop are the rays of the full image. In an image of 4x2 pixels with a field of view of 90 degrees, the
-// centre of the upper left pixel is 3/4 to the left and 1/4 up, in units of half the width.
+// The rays of a crop are the rays of the full image. The image has 4x2 pixels and a field of view of 90 degrees. The
+// centre of its upper left pixel is 3/4 to the left and 1/4 up, in units of half the width.
 TEST(PixelRays, CroppedRaysEqualFullRays) {
   SceneBuilder builder;
   builder.add(Light(ConstantBackground(Spectrum::Ones())));

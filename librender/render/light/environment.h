@@ -17,8 +17,8 @@ namespace render {
 ///   Le     : bilinear between texel centres; u repeats, v ends at the poles.
 ///   sample : selects a texel in proportion to its mean luminance times its solid angle; uniform in (u, v) within.
 ///   pdf    : density in (u, v) over 2 pi^2 sin(theta) [1/sr].
-///   throws : Error unless all texels are finite and >= 0, and some texel is not black. Error unless scale is finite and
-///            > 0. Error unless to_world is a rotation up to 1e-3; a mirroring is allowed.
+///   throws : Error unless all texels are finite and >= 0, and some texel is not black. Error unless scale is finite
+///            and > 0. Error unless to_world is a rotation up to 1e-3; a mirroring is allowed.
 class Environment {
  public:
   /// A light of an image, rotated by `to_world`, with radiance times `scale`.
