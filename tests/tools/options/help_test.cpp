@@ -32,9 +32,10 @@ TEST(Help, FitsTheWidthOfTheTerminal) {
     expect_fits(help_of(shown(), columns), columns);
     for (const Subcommand& c : shown()) expect_fits(help_of(c, columns), columns);
   }
-  expect_fits(support::run("COLUMNS=60 '" CARLO_PATH "' integrate --help").output, 62); // one example is longer
+  expect_fits(support::run(std::string("COLUMNS=60 '" CARLO_PATH "' integrate --help")).output,
+              62); // one example is longer
   expect_fits(support::run_carlo("render --help").output, 80);
-  EXPECT_THAT(support::run("COLUMNS=200 '" CARLO_PATH "' render --help").output,
+  EXPECT_THAT(support::run(std::string("COLUMNS=200 '" CARLO_PATH "' render --help")).output,
               testing::ContainsRegex("\n[^\n]{120,200}\n"));
 }
 
