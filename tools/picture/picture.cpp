@@ -74,8 +74,9 @@ std::string render_summary(const std::string& file, const render::RenderResult& 
   constexpr std::size_t columns = 80, indent = 2;
   std::string text;
   if (r.partial) text += wrapped("PARTIAL: " + interruption_text(r), columns);
-  text += fmt::format("{}: {}x{} pixels, {:.4g} samples per pixel in {} ({} CPU)\n", file, r.image.width,
-                      r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds));
+  text +=
+      fmt::format("{}: {}x{} pixels, {:.4g} sample{} per pixel in {} ({} CPU)\n", file, r.image.width, r.image.height,
+                  r.spp, r.spp == 1 ? "" : "s", format_seconds(r.seconds), format_seconds(r.cpu_seconds));
   text += fmt::format("  mean relative standard error {}, {} invalid samples\n", format_error(r), r.invalid);
   text += fmt::format("  {}, {}rays/s", samples_per_second(r), format_count(double(r.rays) / r.seconds));
   if (r.outlier_dominated > 0)

@@ -66,7 +66,7 @@ TEST_F(Converge, Scene_IsComparedWithAReference) {
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
   expect_refused(dark + " --size 4x4 --max-spp 16", "the picture is black");
   expect_refused(dark + " --points-file p.csv", "--points-file is not for scenes");
-  expect_refused(dark + " --max-n 64", "--memory and --max-n are not for a scene (.xml)");
+  expect_refused(dark + " --max-n 64", "--memory and --max-n are for an integrand; a scene (.xml)");
   expect_refused("pi --max-n 1", "--max-n 1 must lie between 64 and 2^28"); // not what one sampler takes at least
 }
 
@@ -77,7 +77,8 @@ TEST_F(Converge, SceneTooLargeForFloat_IsWarnedAbout) {
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>
     <shape type="sphere"><point name="center" x="0" y="0" z="3e20"/><float name="radius" value="1e20"/></shape>
     </scene>)");
-  const std::string warning = "carlo: warning: " + huge + ": the scene is 4.9e+20 across; areas and squared distances in floats";
+  const std::string warning =
+      "carlo: warning: " + huge + ": the scene is 4.9e+20 across; areas and squared distances in floats";
   for (const std::string command : {"converge ", "trade "}) {
     const std::string said =
         run_carlo(command + huge + " --size 4x4 --strategies mis --max-spp 32 --threads 1 -o '" + path("out") + "'")
@@ -135,7 +136,8 @@ TEST_F(Converge, InfiniteVariance_IsReported) {
 TEST_F(Converge, ErrorBelowReferenceError_HasNoValue) {
   const ProcessResult r = run("'x<0.5 ? 1 : 0' -d x=0:1 --max-n 1024 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
-  EXPECT_THAT(r.output, testing::ContainsRegex("  sobol       RMS error at most 0[.0-9]+ at N = 1024, not told from"));
+  EXPECT_THAT(r.output,
+              testing::ContainsRegex("  sobol       RMS error at most 0[.0-9]+ at N = 1024, not distinguishable from"));
   EXPECT_THAT(out("x_0_5___1___0.csv"), HasSubstr(",sobol,1024,,0,"));
   EXPECT_THAT(out("x_0_5___1___0.json"), HasSubstr("\"rms_error\": null"));
   EXPECT_THAT(mc::read_file(path("page/index.html")), HasSubstr("&le; 0."));
@@ -203,7 +205,7 @@ TEST_F(Converge, FaultyPlugin_IsReportedInOneLine) {
   expect_refused(plugin + "Hang --max-n 64 --timeout 1", "it hangs in eval at x = (");
   expect_refused(plugin + "Slow --max-n 64 --timeout 1", "; raise --timeout or lower --max-n");
   expect_refused(plugin + "Smu --max-n 64", "unknown integrand 'Smu'; did you mean 'Sum'?");
-  expect_refused(std::string("--plugin '") + PLUGIN_DIR + "/right.so'", "it holds samplers and no integrands");
+  expect_refused(std::string("--plugin '") + PLUGIN_DIR + "/right.so'", "it contains distributions but no integrands");
 }
 
 TEST_F(Converge, BadInput_IsReportedInOneLine) {

@@ -114,13 +114,13 @@ TEST_F(TradeCommand, Scene_ListsMethodsAndBiases) {
   EXPECT_THAT(mc::read_file(path("page/index.html")),
               AllOf(HasSubstr("<th>millions of rays</th>"), HasSubstr("no way came there; nearest "),
                     HasSubstr("cbox-11.png"), Not(HasSubstr("CPU"))));
-  expect_refused(cbox + "mess", "did you mean 'mis'");
+  expect_refused(cbox + "miss", "did you mean 'mis'");
   expect_refused(cbox + "mis --max-spp 16", "--max-spp 16 must be at least 32");
   expect_refused(cbox + "mis --max-depths 0", "--max-depths: '0' in '0'");
   expect_refused(cbox + "mis --cost money", "--cost 'money' must be cpu or rays");
   expect_refused("nowhere.xml", "nowhere.xml");
   for (const char* of_integrals : {" --max-n 64", " -d x=0:1", " --timeout 3", " --memory 3"})
-    expect_refused(cbox + "mis" + of_integrals, "--memory and --max-n are not for a scene (.xml)");
+    expect_refused(cbox + "mis" + of_integrals, "--memory and --max-n are for an integrand; a scene (.xml)");
 }
 
 TEST_F(TradeCommand, CtrlC_OfAScenePrintsResultSoFar) {
@@ -166,7 +166,7 @@ TEST_F(TradeCommand, BadInput_IsReportedInOneLine) {
   expect_refused("pi --seconds 1e300", "--seconds: '1e300' in '1e300' must be a number above 0, and 1e+09 at most");
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "the integrand was 0 at every point");
-  expect_refused("x -d x=0:1e-300 --max-n 64", "are below 4.9e-324, the least");
+  expect_refused("x -d x=0:1e-300 --max-n 64", "are below 4.9e-324, the smallest");
 }
 
 } // namespace

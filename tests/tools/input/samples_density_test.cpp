@@ -114,7 +114,7 @@ TEST_F(SamplesFile, InvalidDomainsAndExpressions_AreOneLineErrors) {
   EXPECT_THAT(with("x=0:1,y=0:1", "2*q"), HasSubstr("expression '2*q', position"));
   EXPECT_THAT(with("annulus=2", "1"), HasSubstr("needs a radius in (0, 1)"));
   EXPECT_THAT(with("discrete=0", "1"), HasSubstr("1 to 2^24 outcomes"));
-  EXPECT_THAT(with("disk", ""), HasSubstr("needs the density to hold the samples against: --pdf-file or --pdf"));
+  EXPECT_THAT(with("disk", ""), HasSubstr("needs a density to compare the samples with: --pdf-file or --pdf"));
 }
 
 } // namespace

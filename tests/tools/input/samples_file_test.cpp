@@ -187,7 +187,7 @@ TEST_F(SamplesFile, Detect_TooFewSamples_Throws) {
   o.detect = 0.2;
   EXPECT_THAT(run(o).text, HasSubstr("samples per case to detect 20 %"));
   o.detect = 0.001;
-  EXPECT_THAT(refusal(o), HasSubstr("it holds 35556 samples to count beside those for the bins; --detect 0.001 needs"));
+  EXPECT_THAT(refusal(o), HasSubstr("35556 samples can be counted, the others choose the bins; --detect 0.001 needs"));
 }
 
 TEST_F(SamplesFile, InvalidRow_NamesItsLine) {
@@ -211,8 +211,8 @@ TEST_F(SamplesFile, InvalidFiles_AreOneLineErrors) {
   EXPECT_THAT(refusal(options(path("none.csv"), good)), HasSubstr("none.csv': no such file"));
   EXPECT_THAT(refusal(options(file, path("none.exr"))), HasSubstr("none.exr"));
   EXPECT_THAT(refusal(options(file, "")),
-              HasSubstr("needs the density to hold the samples against: --pdf-file or --pdf"));
-  EXPECT_THAT(refusal(options("", good)), HasSubstr("--pdf-file needs the samples"));
+              HasSubstr("needs a density to compare the samples with: --pdf-file or --pdf"));
+  EXPECT_THAT(refusal(options("", good)), HasSubstr("--pdf-file needs samples"));
   EXPECT_THAT(refusal(options(samples(ramp, "few.csv", 1999), good)),
               HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
   EXPECT_THAT(refusal(options(file, write("q.csv", "1,2\n3,-1\n"))),

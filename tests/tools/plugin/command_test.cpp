@@ -112,7 +112,7 @@ TEST_F(Command, MisbehavingProgram_IsOneLineError) {
 
 // What a program prints besides, before its answers or between them, would shift all numbers behind it.
 TEST_F(Command, ExtraOutput_IsRejected) {
-  const char* more = "bytes more than the answer; nothing else may go to standard output";
+  const char* more = "bytes more than the answer; it must write nothing else to standard output";
   EXPECT_THAT(refusal(changed("for line in", "print('ready', flush=True)\nfor line in")), HasSubstr(more));
   EXPECT_THAT(refusal(changed("    sink.flush()\n", "    sink.write(b'answered')\n    sink.flush()\n")),
               HasSubstr(more));
@@ -139,10 +139,10 @@ TEST_F(Command, InvalidOptions_AreOneLineErrors) {
   ValidateCommandOptions named;
   named.names = {"UniformDisk"};
   named.domain = "disk";
-  EXPECT_THAT(refusal(named), HasSubstr("--domain is that of a --command or a --samples-file"));
+  EXPECT_THAT(refusal(named), HasSubstr("--domain is for a --command or a --samples-file"));
   named.domain = "";
   named.unnormalized = true;
-  EXPECT_THAT(refusal(named), HasSubstr("--unnormalized is of the density of a --samples-file"));
+  EXPECT_THAT(refusal(named), HasSubstr("--unnormalized is for a density of a --samples-file"));
 }
 
 } // namespace

@@ -148,7 +148,7 @@ TEST(Plugin, Crash_FailsOnlyItsCase) {
 TEST(Plugin, Parameters_ApplyToNamedCasesOnly) {
   ValidateCommandOptions o = plugin("samplers", {"Cosine"});
   o.parameters = {"power=-1000"};
-  EXPECT_THAT(refusal(o), AllOf(HasSubstr("no sampler has all the parameters"), Not(HasSubstr("of Box"))));
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("no distribution has all the parameters"), Not(HasSubstr("of Box"))));
 }
 
 TEST(Plugin, Hang_EndsAtTimeout) {
@@ -166,7 +166,7 @@ TEST(Plugin, ExceededLimit_IsOneLineNamingLimit) {
   ValidateCommandOptions o = plugin("greedy");
   o.memory = 1;
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  EXPECT_THAT(refusal(o), AllOf(HasSubstr("greedy.so: it wants more than 1 GiB of memory in sample at u = ("),
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("greedy.so: it needs more than 1 GiB of memory in sample at u = ("),
                                 HasSubstr("--memory")));
 #endif
   EXPECT_THAT(refusal(plugin("files")), HasSubstr("files.so: it threw in sample at u = ("));
@@ -224,7 +224,7 @@ TEST(Plugin, UnloadablePlugin_NamesReason) {
   EXPECT_THAT(refusal(plugin("wide_parts")), HasSubstr("4 dimensions in 5 columns; at most 3 in 4"));
   EXPECT_THAT(refusal(plugin("no_probability")), HasSubstr("outcomes = 2, but probability is NULL"));
   EXPECT_THAT(refusal(plugin("no_name")), HasSubstr("sampler 0 has no name"));
-  EXPECT_THAT(refusal(plugin("weight_alone")), HasSubstr("states a weight, but no eval"));
+  EXPECT_THAT(refusal(plugin("weight_alone")), HasSubstr("states a weight, but has no eval"));
   EXPECT_THAT(refusal(plugin("reversed")), HasSubstr("interval [2, 1]"));
 }
 
@@ -239,12 +239,12 @@ TEST(Plugin, InvalidParameters_AreOneLineErrors) {
     o.parameters = {set};
     return refusal(o);
   };
-  EXPECT_THAT(with("powr=1"), HasSubstr("no sampler has a parameter 'powr'; did you mean 'power'?"));
+  EXPECT_THAT(with("powr=1"), HasSubstr("no distribution has a parameter 'powr'; did you mean 'power'?"));
   EXPECT_THAT(with("power"), HasSubstr("'power' in 'power' is not of the form name=number"));
   EXPECT_THAT(with("power=x"), HasSubstr("not of the form name=number"));
   EXPECT_THAT(with("power=21"), HasSubstr("power = 21 of Box must lie in [0, 20]"));
   EXPECT_THAT(with("power=13"), HasSubstr("create rejects the parameters"));
-  EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no sampler has all the parameters"));
+  EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no distribution has all the parameters"));
   EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})),
               HasSubstr("unknown distribution 'Cosin'; did you mean 'Cosine'?"));
   ValidateCommandOptions o;

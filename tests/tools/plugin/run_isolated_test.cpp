@@ -37,7 +37,7 @@ TEST_F(Isolated, MemoryLimit_CoversAllProcesses) {
                             "        held = b'x' * (200 << 20)\n"
                             "        time.sleep(100)\n"
                             "time.sleep(100)\n")),
-              AllOf(HasSubstr("it wants more than 0.5 GiB of memory in sample at u = ("), HasSubstr("(--memory)")));
+              AllOf(HasSubstr("it needs more than 0.5 GiB of memory in sample at u = ("), HasSubstr("(--memory)")));
 }
 
 TEST_F(Isolated, SharedMemory_CountsOnce) {
@@ -52,7 +52,7 @@ TEST_F(Isolated, SharedMemory_CountsOnce) {
 TEST_F(Isolated, OutOfMemoryExit_NamesMemoryLimit) {
   EXPECT_THAT(refusal(after("held = []\n"
                             "while True: held.append(b'x' * (1 << 20))\n")),
-              AnyOf(HasSubstr("it wants more than 0.5 GiB of memory"),
+              AnyOf(HasSubstr("it needs more than 0.5 GiB of memory"),
                     testing::ContainsRegex("code 1 instead of answering 'sample'; it held 0.4[0-9]+ GiB of memory of "
                                            "the 0.5 that --memory allows")));
 }
