@@ -19,7 +19,7 @@ double thread_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Only one that needs none of its variables parses without them.
+// An expression parses without variables only if it uses none.
 bool is_constant(const std::string& expression) {
   try {
     parse_function(expression, {});

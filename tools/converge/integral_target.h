@@ -1,5 +1,5 @@
 #pragma once
-/// What is integrated, and by whom.
+/// Integrals to measure, and the functions that run their replicates.
 
 #include <integrands/unit_cube_integral.h>
 #include <sampling/sampling_methods.h>
@@ -14,33 +14,34 @@ namespace carlo {
 
 /// Independent estimates of one integral.
 struct Replicates {
-  std::vector<double> values, calls, seconds; ///< CPU seconds each
+  std::vector<double> values, calls, seconds; ///< CPU seconds of each estimate
 };
 
-/// Replicates first, first + 1, ... of a way with about n evaluations each.
+/// Replicates first, first + 1, ... of a method with about n evaluations each.
 struct ReplicateTask {
   const SamplingMethod* method = nullptr;
   std::uint64_t n = 0, seed = 1, first = 0, count = 0;
-  int threads = 0;                           ///< 0: all of the machine's
-  const std::atomic<bool>* cancel = nullptr; ///< set: what is returned means nothing
+  int threads = 0;                           ///< 0: all threads of the machine
+  const std::atomic<bool>* cancel = nullptr; ///< when it becomes true, the returned replicates are invalid
 };
 
-/// An integral, and what runs its replicates: this process, or one of its own for a plugin's integrand.
+/// An integral and the function that runs its replicates: in this process, or in a separate one for a plugin's
+/// integrand.
 struct IntegralTarget {
   UnitCubeIntegral integral;
   std::function<Replicates(const ReplicateTask& task)> run;
-  bool has_batch = false; ///< the integrand takes many points at once, too
+  bool has_batch = false; ///< the integrand also accepts many points at once
 };
 
-/// One that runs in this process.
-///   throws : when it runs, what evaluate throws
+/// A target that runs in this process.
+///   throws : `run` throws the errors of `evaluate`
 IntegralTarget in_process_target(UnitCubeIntegral integral);
 
-/// Throws Error for an expression that uses none of the variables of its box, as in "x=0:1,y=-1:2": every way knows a
-/// constant exactly, so that there is nothing to compare.
+/// Throws Error for an expression that uses none of the variables of its box, as in "x=0:1,y=-1:2". Every method
+/// integrates a constant exactly, so there is nothing to compare.
 void refuse_constant(const std::string& expression, const std::string& box);
 
-/// Throws Error for a scene file (.xml) among several words: scenes are measured one at a time.
+/// Throws Error for a scene file (.xml) among several words: only one scene is measured at a time.
 void refuse_scene_among(const std::vector<std::string>& words);
 
 Replicates run_replicates(const UnitCubeIntegral& e, const ReplicateTask& task);

@@ -21,9 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_replicates = 64, most_replicates = 512, reference_replicates = 128;
-constexpr double rounding = 1e-12; // of sums, relative to what is summed
+constexpr double rounding = 1e-12; // of sums, relative to the mean of |f|
 
-// Numbers in units of 2^exponent, whose fourth powers neither overflow nor vanish.
+// Numbers in units of 2^exponent, so that their fourth powers neither overflow nor underflow.
 struct ScaledValues {
   std::vector<double> values;
   int exponent = 0;
@@ -33,10 +33,12 @@ struct ScaledValues {
   }
   double mean() const {
     double sum = 0;
-    for (const double one : values) sum += one; // exact for whole numbers: N must not fall below where fits begin
+    for (const double one : values)
+      sum += one; // exact for integers: N must not fall below the start of the fit by
+                  // rounding
     return sum / static_cast<double>(values.size());
   }
-  double squares() const { // of deviations from the mean
+  double squares() const { // sum of squared deviations from the mean
     const double centre = mean();
     double sum = 0;
     for (const double one : values) sum += mc::sqr(one - centre);
@@ -56,8 +58,8 @@ double error_of_mean(const std::vector<double>& x) {
   return std::ldexp(std::sqrt(s.squares() / (n - 1) / n), s.exponent);
 }
 
-// The mean kurtosis of errors over the sets of replicates from N / 16 to 16 N, as far as they are there: of a long tail
-// each set shows a part, and most show none.
+// The mean kurtosis of the errors over the sets of replicates from N / 16 to 16 N that exist. A single set often
+// misses a long tail, so several sets are averaged.
 double mean_kurtosis(const std::vector<Replicates>& all, std::size_t at, double truth) {
   constexpr std::size_t beside = 4;
   double sum = 0, count = 0;
@@ -69,8 +71,9 @@ double mean_kurtosis(const std::vector<Replicates>& all, std::size_t at, double 
   return count > 0 ? sum / count : 0;
 }
 
-// How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R), the kurtosis
-// that of these errors or of those with fewer evaluations. Where all agree more may not: as many as there can be.
+// The number of replicates for which the relative standard error of the RMS error is 10 %. Its relative variance is
+// (kurtosis - 1) / (4 R). The kurtosis is the larger of the one at this N and the mean at smaller N. If all replicates
+// agree, the variance is unknown: then the maximum number is needed.
 double replicates_needed(const std::vector<double>& values, double truth, double kurtosis) {
   if (error_of_mean(values) == 0) return double(most_replicates);
   const double own = mc::error_kurtosis(values, std::isfinite(truth) ? truth : mean_of(values));
@@ -83,7 +86,7 @@ void append(Replicates& all, const Replicates& more) {
   all.seconds.insert(all.seconds.end(), more.seconds.begin(), more.seconds.end());
 }
 
-// `before`: those with fewer evaluations.
+// `before`: the sets of replicates at smaller N.
 Replicates replicate(const IntegralTarget& target, const SamplingMethod& method, std::uint64_t n,
                      const std::vector<Replicates>& before, const MeasureOptions& o) {
   const auto run = [&](std::uint64_t first, std::uint64_t count) {
@@ -103,9 +106,9 @@ double median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
-// The standard error of the mean of a curve's last replicates, as far as they are to be believed: where each of them
-// met the same of a jump their spread is 0 or next to it, by chance. So it falls by at most a factor of 4 where N
-// doubles, N^-2; and replicates that have never differed do not know it.
+// A conservative standard error of the mean of a curve's last replicates. Their spread can be nearly 0 by chance, for
+// example if each of them samples the same side of a jump. So the error falls by at most a factor of 4 where N doubles,
+// which is N^-2. If replicates have never differed, the error is infinite.
 double credible_error_of_mean(const ConvergenceCurve& c) {
   double error = mc::infinity<double>;
   for (const Replicates& r : c.replicates) {
@@ -115,7 +118,7 @@ double credible_error_of_mean(const ConvergenceCurve& c) {
   return error;
 }
 
-// Whether the goals are passed with room to spare.
+// Whether the goals are reached with a safety margin.
 bool reaches_goals(const ConvergenceCurve& curve, const UnitCubeIntegral& e, const MeasureOptions& o) {
   const Replicates& r = curve.replicates.back();
   if (o.cpu_goal > 0 && median(r.seconds) > o.cpu_goal) return true;
@@ -125,7 +128,8 @@ bool reaches_goals(const ConvergenceCurve& curve, const UnitCubeIntegral& e, con
   return std::hypot(off, std::sqrt(n - 1) * credible_error_of_mean(curve)) < 0.7 * o.error_goal;
 }
 
-// The errors come later, when the truth is known. An interrupt costs only the N that it falls on.
+// Runs the replicates only; evaluate_curve computes the errors once the truth is available. An interrupt discards
+// only the current N.
 ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& method, double seconds,
                            const MeasureOptions& o, const std::function<void(std::uint64_t n)>& progress) {
   ConvergenceCurve curve;
@@ -151,7 +155,8 @@ ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& m
   return curve;
 }
 
-// The error of the reference may stand on either side, and where it may be all of an error nothing else is known of it.
+// The error of the reference can have either sign, so it widens both edges. An error that the reference alone may
+// explain becomes a bound.
 void add_reference_error(mc::RmsError& e, double truth_error) {
   const double most = 2 * truth_error;
   e.lo = e.lo > most ? std::sqrt(e.lo - most) * std::sqrt(e.lo + most) : 0;
@@ -160,8 +165,8 @@ void add_reference_error(mc::RmsError& e, double truth_error) {
   if (e.is_bound) e.rms = e.hi;
 }
 
-// Of a tail with the index a the share n^(2 / a - 1) of the variance lies beyond the largest of n values. Points that
-// are not independent meet the tail where one of them is nearest to it: then n is the number of replicates.
+// For a tail with the index a, the share n^(2 / a - 1) of the variance lies beyond the largest of n values. Dependent
+// points sample the tail only where one of them is nearest to it: then n is the number of replicates.
 void allow_for_tail(mc::RmsError& e, double index, double values) {
   constexpr double light = 8, most = 0.9;
   if (index < light) e.hi /= std::sqrt(1 - std::min(std::pow(values, std::min(2 / index - 1, 0.0)), most));
@@ -183,7 +188,7 @@ void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Me
   }
   curve.exact = worst <= floor;
   if (curve.exact) return;
-  // Where the asymptotic range is unknown, the upper half of the doublings.
+  // If the asymptotic range is unknown, the fit uses the upper half of the doublings.
   const std::size_t half = curve.errors.size() / 2;
   std::vector<mc::RmsError> fitted;
   double fewest = double(most_replicates), logs = 0;
@@ -200,14 +205,15 @@ void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Me
   curve.fit_center = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
-// What independent points say of an integrand.
+// Properties of an integrand, estimated from independent points.
 struct IntegrandProbe {
-  double magnitude; // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
-  mc::TailIndexEstimator tail; // of f
+  double magnitude; // the mean of |f| over a few points; rounding is relative to it, since the integral itself may
+                    // cancel
+  mc::TailIndexEstimator tail; // tail index of f
 };
 
 IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOptions& o) {
-  const std::uint64_t points = std::min<std::uint64_t>(4 * o.max_n, 1 << 14); // less than the largest N takes
+  const std::uint64_t points = std::min<std::uint64_t>(4 * o.max_n, 1 << 14); // less than the largest N costs
   const Replicates r =
       target.run({&sampling_method("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
   std::vector<double> sizes;
@@ -218,9 +224,10 @@ IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOption
   return {mean_of(sizes), mc::TailIndexEstimator(all)};
 }
 
-// The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that
-// agree on a few points, where a curve was cut, may all have missed what the integral is made of. Where none has ever
-// differed, the curve of the largest N.
+// The curve with the smallest conservative standard error at its largest N, among the methods that do not adapt. An
+// interrupted curve with identical replicates is excluded: a few points may all miss the support of the integrand. If
+// no
+// replicates have ever differed, it is the curve with the largest N.
 const ConvergenceCurve* most_precise_curve(const std::vector<ConvergenceCurve>& curves) {
   const ConvergenceCurve* best = nullptr;
   const auto rank = [](const ConvergenceCurve& c) {
@@ -234,7 +241,7 @@ const ConvergenceCurve* most_precise_curve(const std::vector<ConvergenceCurve>& 
   return best;
 }
 
-// The truth and its standard error; when interrupted by the replicates that are there.
+// The truth and its standard error. After an interrupt it uses the existing replicates.
 std::pair<double, double> estimate_truth(const IntegralTarget& target, const std::vector<ConvergenceCurve>& curves,
                                          const MeasureOptions& o) {
   const ConvergenceCurve* best = most_precise_curve(curves);
@@ -249,7 +256,7 @@ std::pair<double, double> estimate_truth(const IntegralTarget& target, const std
   return {mean_of(values), error_of_mean(values)};
 }
 
-// Why the truth must be wrong; empty without a reason. A curve that was cut at small N is no witness.
+// Why the stated truth must be wrong; empty if there is no reason. An interrupted curve is no evidence.
 std::string wrong_truth_warning(const UnitCubeIntegral& e, const Measurement& m) {
   const std::vector<ConvergenceCurve>& curves = m.curves;
   const ConvergenceCurve* best = nullptr;
@@ -279,8 +286,11 @@ std::string wrong_truth_warning(const UnitCubeIntegral& e, const Measurement& m)
                      e.truth, std::abs(value - e.truth), best->method->name, value, error);
 }
 
-// Whether one replicate holds over half of the squared deviations from the mean, and more than one in a million sets of
-// normal ones does: s of R deviations has the law of t^2 / (R - 2 + t^2) (R - 1) / R, t of R - 2 degrees of freedom.
+// Whether one replicate holds over half of the squared deviations from the mean, and fewer than one in a million sets
+// of
+// normal replicates would. The largest share s of R deviations is distributed as t^2 / (R - 2 + t^2) (R - 1) / R, with
+// t
+// of R - 2 degrees of freedom.
 bool one_dominates(const std::vector<double>& values) {
   const ScaledValues s(values);
   const double mean = s.mean(), sum = s.squares();
@@ -291,8 +301,8 @@ bool one_dominates(const std::vector<double>& values) {
   return share >= 1 || n * mc::student_tail(std::sqrt((n - 2) * share / (1 - share)), n - 2) < 1e-6;
 }
 
-// Why a truth found by replicates may be none; empty without a reason. Means with a finite variance are nearly normal
-// at the larger N.
+// Why an estimated truth may be meaningless; empty if there is no reason. Means with a finite variance are nearly
+// normal at the larger N.
 std::string unreliable_reference_warning(const std::vector<ConvergenceCurve>& curves) {
   const auto is_usable = [](const ConvergenceCurve& c) { return !c.method->is_adaptive && !c.exact && !c.interrupted; };
   int sets = 0, dominated = 0;
@@ -356,7 +366,9 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
                 target.integral.name);
   }
   m.truth = target.integral.truth;
-  // What an interrupt leaves may not tell the truth: then no error is known, which is no fault of the integrand.
+  // After an interrupt the existing replicates may not suffice for a truth. Then no error is reported, and the
+  // integrand
+  // is not blamed.
   if (m.interrupted && !known && (!most_precise_curve(m.curves) || all_zero(m.curves))) m.curves.clear();
   if (m.curves.empty()) return m;
   if (!known) std::tie(m.truth, m.truth_error) = estimate_truth(target, m.curves, o);

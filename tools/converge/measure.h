@@ -1,5 +1,5 @@
 #pragma once
-/// Error against samples and seconds, for one integral and several ways to sample it.
+/// Measures the error of several methods against evaluations and seconds, for one integral.
 
 #include <converge/integral_target.h>
 #include <sampling/theory.h>
@@ -14,65 +14,70 @@ namespace carlo {
 
 struct MeasureOptions {
   std::uint64_t max_n = 1 << 18;
-  int replicates = 0;    ///< behind each RMS error; 0: as many as make it known to 10 %, 64 to 512
-  double error_goal = 0; ///< no larger N where the RMS error is this small; 0: until max_n
-  double cpu_goal = 0;   ///< nor where one estimate takes so many CPU seconds
-  double seconds = 0;    ///< wall-clock, shared by the ways; 0: until max_n
+  int replicates = 0;    ///< replicates behind each RMS error; 0: 64 to 512, enough for a relative error of 10 %
+  double error_goal = 0; ///< a curve ends where its RMS error is below this; 0: at max_n
+  double cpu_goal = 0;   ///< a curve ends where one estimate takes more CPU seconds; 0: at max_n
+  double seconds = 0;    ///< wall-clock, shared by the methods; 0: until max_n
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
-  /// Called after each N with the share of the work that is done, and where it is.
+  /// Called after each N with the finished share of the work and the current method and N.
   std::function<void(double done, const std::string& where)> progress = {};
 };
 
-/// How the error of one way falls.
+/// The error of one method as a function of N.
 struct ConvergenceCurve {
   const SamplingMethod* method = nullptr;
-  std::vector<mc::RmsError> errors;      ///< N is the evaluations really made
-  std::vector<Replicates> replicates;    ///< behind each
-  bool exact = false;                    ///< no error beyond rounding, so no slope
-  bool interrupted = false;              ///< an interrupt came before its largest N
-  bool out_of_time = false;              ///< its share of MeasureOptions::seconds ended before
-  std::optional<mc::PowerLaw> power_law; ///< of N in the asymptotic range, where there are three or more
+  std::vector<mc::RmsError> errors;      ///< N is the number of evaluations actually made
+  std::vector<Replicates> replicates;    ///< the replicates behind each error
+  bool exact = false;                    ///< the error is rounding only, so there is no slope
+  bool interrupted = false;              ///< the run was interrupted before the largest N
+  bool out_of_time = false;              ///< the time share of this curve ended before the largest N
+  std::optional<mc::PowerLaw> power_law; ///< the fit in the asymptotic range, if it has three or more errors
   std::optional<ConvergenceRate> theory;
-  double fit_center = 0; ///< geometric mean of the N of the law
+  double fit_center = 0; ///< geometric mean of the fitted N
 
-  /// Whether there is an error to draw: above 0, and not a bound.
+  /// Whether at least one error can be drawn: it exceeds 0 and is not a bound.
   bool has_measurable_error() const;
-  /// Whether the interval of the slope allows what theory says about these N.
+  /// Whether the interval of the slope is consistent with the theoretical rate at the fitted N.
   bool agrees_with_theory() const;
 };
 
-/// What an estimate costs, in words.
+/// The name of the unit in which costs are reported.
 struct CostUnit {
-  std::string_view column, axis;    ///< of tables, of plots
-  std::string_view unit, qualifier; ///< behind a figure
+  std::string_view column, axis;    ///< names of the table column and of the plot axis
+  std::string_view unit, qualifier; ///< text behind a number
 };
 inline constexpr CostUnit cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
 inline constexpr CostUnit ray_cost{"million_rays", "millions of rays", " Mray", ""};
 
 struct Measurement {
-  std::vector<ConvergenceCurve> curves; ///< of the ways that were begun; when interrupted the last may be cut
-  double truth = 0;                     ///< what errors are measured from
-  double truth_error = 0;               ///< standard error of a reference; 0: the truth is known
-  double magnitude = 0;                 ///< mean of |f|, or |truth| where that is more: what rounding is relative to
-  std::string truth_warning;            ///< one line that says why the truth must or may be wrong; empty: no doubt
-  bool interrupted = false;             ///< what was measured until then is kept, for each N that was finished
-  std::optional<double> heavy_tail; ///< index of the tail, where the variance looks infinite by mc::TailIndexEstimator
-  CostUnit cost = cpu_cost;         ///< what its seconds are
-  std::string plain_mc = "random";  ///< the name of the way that is plain Monte Carlo
+  std::vector<ConvergenceCurve> curves; ///< one for each method started; after an interrupt the last curve may be
+                                        ///< incomplete
+  double truth = 0;                     ///< the value that errors are measured from
+  double truth_error = 0;               ///< standard error of an estimated truth; 0: the truth is exact
+  double magnitude = 0;                 ///< mean of |f|, or |truth| if that is larger; rounding is relative to it
+  std::string truth_warning;            ///< one line with the reason why the truth is or may be wrong; empty: no doubt
+  bool interrupted = false;             ///< only the N finished before the interrupt are included
+  std::optional<double> heavy_tail;     ///< tail index, if mc::TailIndexEstimator finds an infinite variance
+  CostUnit cost = cpu_cost;             ///< the unit of `seconds`
+  std::string plain_mc = "random";      ///< name of the method that is plain Monte Carlo
 };
 
-/// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
-///   truth  : where the integral has none, the mean of 128 more replicates of the way with the smallest error at its
-///            largest N: its standard error is under a tenth of the smallest error shown, and widens every interval;
-///            when interrupted, the mean of those it has; an error that is not told from its own is a bound, and in no
-///            slope
-///   doubt  : unbiased ways whose means agree with each other and not with the stated truth, by six standard errors;
-///            where none is stated, a quarter of all sets of replicates, at the larger N, in which one replicate holds
-///            over half of the variance
-///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point, and
-///            where refuse_underflow does
+/// Runs every method with N = 16, 32, ... max_n evaluations, starting at the method's smallest possible N.
+///   truth  : if the integral states none, the mean of 128 additional replicates of the method with the smallest error
+///   at
+///            its largest N. The standard error of this mean is under a tenth of the smallest reported error, and
+///            widens
+///            every interval. After an interrupt the mean is over the existing replicates. An error that is not
+///            significantly larger than the error of the truth is reported as a bound and enters no slope.
+///   doubt  : a stated truth is doubted if the means of the unbiased methods agree with each other but differ from it
+///   by
+///            six standard errors. An estimated truth is doubted if one replicate holds over half of the variance in a
+///            quarter of all sets of replicates at the larger N.
+///   throws : Error for an integrand that is not finite somewhere, for one of unknown truth that is 0 at every point,
+///   and
+///            where refuse_underflow throws
 Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,
                                 const MeasureOptions& options);
 

@@ -69,7 +69,7 @@ namespace {
 
 std::string field(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
 
-// From theory to source, empty where nothing is known.
+// The columns from theory to source; empty if no rate is known.
 std::string theory_fields(const ConvergenceCurve& c) {
   if (!c.theory) return ",,,";
   std::string text = c.theory->to_string(4) + ",";
@@ -165,7 +165,7 @@ ordered_json to_json(const IntegralTarget& target, const Measurement& m, const o
 
 namespace {
 
-// A text between gnuplot's double quotes.
+// A text, escaped for gnuplot's double quotes.
 std::string gnuplot_text(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -185,7 +185,7 @@ std::string curve_lines(const Measurement& m, const std::string& name, const cha
                             ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.method->name, c.power_law->slope,
                                           (c.power_law->hi - c.power_law->lo) / 2)
                             : c.method->name;
-    std::replace(label.begin(), label.end(), '_', ' '); // which gnuplot would take for a subscript
+    std::replace(label.begin(), label.end(), '_', ' '); // gnuplot would read an underscore as a subscript
     plot += fmt::format("\"{0}.csv\" skip 1 using {1}:5:6 with filledcurves fs solid 0.18 noborder lc rgb \"{2}\" "
                         "notitle, \\\n     \"{0}.csv\" skip 1 using {1}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "
                         "\"{2}\" title \"{3}\", \\\n     ",
@@ -201,7 +201,7 @@ std::string curve_lines(const Measurement& m, const std::string& name, const cha
 } // namespace
 
 std::string to_script(const IntegralTarget& target, const Measurement& m, const std::string& name) {
-  const bool many = m.curves.size() > 5; // then the key would hide them
+  const bool many = m.curves.size() > 5; // a key inside the plot would cover the curves
   std::string s = plot_header(name, 1000, many ? 860 : 440);
   s += fmt::format("set multiplot layout 1,2 title \"{}\" noenhanced font \",15\"\nset logscale xy\nset format y "
                    "\"10^{{%L}}\"\nset key {} Left reverse samplen 2 spacing 1.2 tc rgb \"#333333\"\nset "

@@ -1,5 +1,5 @@
 #pragma once
-/// Measured curves as text, tables and pictures.
+/// Measured curves as text, tables and plots.
 
 #include <converge/measure.h>
 
@@ -10,35 +10,35 @@
 
 namespace carlo {
 
-/// "slope -0.501 [-0.512, -0.490], theory -0.500".
+/// For example "slope -0.501 [-0.512, -0.490], theory -0.500".
 std::string slope_text(const ConvergenceCurve& curve);
 
-/// That the variance looks infinite, in one line; empty where it does not.
+/// One line of warning if the variance appears infinite; otherwise empty.
 std::string variance_warning(const Measurement& m);
 
-/// The title, a line for each curve, and what is to be said of the truth and of the variance.
+/// The title, a line for each curve, and the warnings about the truth and the variance.
 std::string summary(const IntegralTarget& target, const Measurement& m);
 
-/// How many of its curves reached their largest N.
+/// Number of curves that reached their largest N.
 std::size_t count_finished(const Measurement& m);
 
-/// "interrupted: 2 of 23 ways were finished, one more up to N = 4096", the last being what was measured last.
+/// For example "interrupted: 2 of 23 ways were finished, one more up to N = 4096". `last` is the last measurement.
 std::string interrupted_text(std::size_t done, std::size_t wanted, std::string_view what, const Measurement& last);
 
-/// A row for each error; that of a bound is empty between 0 and the bound.
+/// A row for each error. The error of a bound is empty; its interval is from 0 to the bound.
 std::string to_csv(const IntegralTarget& target, const Measurement& m);
 
-/// A row for each curve: its slope beside theory. The first line names the columns.
+/// A row for each curve: the measured and the theoretical slope. The first line names the columns.
 std::string slopes_header();
 std::string slopes_csv(const IntegralTarget& target, const Measurement& m);
 
-/// All that was measured; `about` holds what else there is to say: command, commit, seed.
+/// The complete measurement. `about` holds additional metadata: command, commit, seed.
 nlohmann::ordered_json to_json(const IntegralTarget& target, const Measurement& m, const nlohmann::ordered_json& about);
 
-/// The gnuplot script of NAME.csv: error against N, and against CPU seconds.
+/// The gnuplot script for NAME.csv: error against N, and against CPU seconds.
 std::string to_script(const IntegralTarget& target, const Measurement& m, const std::string& name);
 
-/// The colour of the i-th curve, for colour-blind eyes too.
+/// The colour of the i-th curve, distinguishable by colour-blind readers.
 std::string color(std::size_t i);
 
 } // namespace carlo

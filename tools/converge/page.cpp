@@ -37,13 +37,13 @@ std::string cells(const std::vector<std::string>& all) {
   return s + "</tr>";
 }
 
-// A mark in the colour of the curve, and its name.
+// A marker in the colour of the curve, followed by its name.
 std::string named(const ConvergenceCurve& c, const Measurement& m) {
   const auto i = static_cast<std::size_t>(&c - m.curves.data());
   return fmt::format("<i style=\"background:{}\"></i>{}", color(i), escape_html(curve_label(c)));
 }
 
-/// How the words of integrals and of scenes differ.
+/// Terms that differ between integrals and scenes.
 struct Words {
   std::string method, n, estimate;
 };
@@ -66,7 +66,7 @@ std::vector<std::string> theory_cells(const ConvergenceCurve& c) {
   return {slope, theory, agrees};
 }
 
-// The bias that is told from 0, and above which error it pays.
+// The bias, and the error above which the method is cheaper; "-" for a bias that is not significant.
 std::array<std::string, 2> bias_cells(const Bias& b) {
   if (!(b.bias.lo > 0)) return {"-", "-"};
   if (!b.break_even_error) return {format_interval(b.bias), "never"};
@@ -97,7 +97,7 @@ std::string curve_table(const PageEntry& one) {
   return table(head, rows);
 }
 
-// The ways that cannot be told from the first.
+// The methods that tie with the first.
 std::string ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) {
   const std::size_t count = count_ties(candidates, criterion);
   std::string s = count > 1 ? "" : "-";
@@ -105,7 +105,7 @@ std::string ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate
   return "<span class=\"ties\">" + s + "</span>";
 }
 
-/// Rows of what was asked for; the gain over plain Monte Carlo is a column where one is known.
+/// Rows of the requested goals. The gain over plain Monte Carlo is a column if it is known for at least one goal.
 class ChoiceTable {
  public:
   ChoiceTable(const PageEntry& one, bool has_gain) : m_(*one.measurement), n_(words_of(one).n), has_gain_(has_gain) {}
@@ -181,7 +181,7 @@ std::string facts(const PageEntry& one) {
   return s;
 }
 
-/// A picture of a scene, the file beside the page that holds it, and what stands below it.
+/// A picture of a scene, its file in the folder of the page, and its caption.
 struct Thumbnail {
   const render::Image& image;
   std::string file, caption;

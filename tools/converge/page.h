@@ -1,5 +1,5 @@
 #pragma once
-/// Measured curves of integrals and scenes as one page that needs no network and no script.
+/// Measured curves of integrals and scenes as one HTML page without network access or scripts.
 
 #include <converge/picture_measurement.h>
 
@@ -13,11 +13,11 @@ namespace carlo {
 struct PageEntry {
   const IntegralTarget* target;
   const Measurement* measurement;
-  const PictureMeasurement* pictures = nullptr; ///< of a scene: whose measurement it is
-  const TradeResults* trade_results = nullptr;  ///< of carlo trade
+  const PictureMeasurement* pictures = nullptr; ///< set for a scene
+  const TradeResults* trade_results = nullptr;  ///< set for carlo trade
 };
 
-/// What carlo converge or carlo trade says of itself on top of the page.
+/// The name, title and command line at the top of the page.
 struct PageHeader {
   std::string_view tool, title;
   std::string command;
@@ -25,13 +25,14 @@ struct PageHeader {
 PageHeader converge_header(const std::string& command);
 PageHeader trade_header(const std::string& command);
 
-/// Writes FOLDER/index.html: for each target what was asked for and the way to it; error against N and against what it
-/// costs, with 95 % bands and dotted lines of theory; a table of every curve. Of a scene the reference and a picture of
-/// each way, which are PNG files beside it.
+/// Writes FOLDER/index.html. For each target the page shows the requested goals with the recommended methods. It plots
+/// the error against N and against cost, with 95 % bands and dotted lines for the theory. A table lists every curve.
+/// For a
+/// scene it adds the reference and one picture for each method, as PNG files in the same folder.
 void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head,
                             const std::vector<PageEntry>& all);
 
-/// The name of a file that is about `text`: its letters and digits, at most 60 of them.
+/// A file name made of `text`: the first 60 characters, with all but letters, digits, _ and - replaced by _.
 std::string safe_file_name(const std::string& text);
 
 } // namespace carlo

@@ -28,7 +28,7 @@ struct Axis {
   }
   double at(double x) const { return (std::log10(x) - lo) / (hi - lo); }
 
-  // Decades, not too many; of a short axis 1, 2 and 5 of each.
+  // At most about eight decades; 1, 2 and 5 times each decade on a short axis.
   std::vector<double> ticks() const {
     std::vector<double> all;
     const int step = std::max(1, static_cast<int>((hi - lo) / 8));

@@ -9,15 +9,15 @@
 
 namespace carlo {
 
-/// What a panel draws the errors against.
+/// Axes and additional lines of a panel.
 struct PanelOptions {
-  std::string_view axis; ///< what stands below it
+  std::string_view axis; ///< label of the x axis
   double (*x)(const mc::RmsError& e);
-  bool theory = false;                        ///< dotted lines that fall as theory says
-  std::vector<TradeCandidate> pareto_front{}; ///< a broad line through these, which x must be the seconds for
+  bool theory = false;                        ///< draws dotted lines with the theoretical slope
+  std::vector<TradeCandidate> pareto_front{}; ///< draws a broad line through these points; x must then return seconds
 };
 
-/// An SVG element: the RMS errors with their 95 % bands, both axes logarithmic; empty where no error is above 0.
+/// An SVG element with the RMS errors and their 95 % bands on logarithmic axes. Empty if no error exceeds 0.
 std::string error_panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options);
 
 } // namespace carlo

@@ -21,14 +21,14 @@ namespace {
 
 using render::Image;
 
-/// Added to the square of a pixel, a share of that of the mean over pixels and channels: no unit of light matters. Of
-/// the gallery's pictures it is the .01 of carlo compare, in the median.
+/// Share of the squared mean over pixels and channels that is added to the square of a pixel. A share makes the relmse
+/// independent of the unit of light. In the median over the gallery's pictures it equals the .01 of carlo compare.
 constexpr double relmse_floor_share = 0.1;
 /// Roots of relmse below this are rounding of pixels, not noise.
 constexpr double rounding_of_pixels = 8 * std::numeric_limits<render::Float>::epsilon();
-constexpr int first_pictures = 8, most_pictures = 64; ///< behind each error, where their number is not given
+constexpr int first_pictures = 8, most_pictures = 64; ///< behind each error, if their number is not given
 
-// The relmse that an image's own noise makes.
+// The relmse caused by an image's own noise.
 double noise(const Image& image, double relmse_floor) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -36,35 +36,35 @@ double noise(const Image& image, double relmse_floor) {
   return sum / (3.0 * double(image.pixels.size()));
 }
 
-/// Pictures of one way at one number of samples.
+/// Pictures of one method at one number of samples.
 struct PictureSeries {
   double spp = 0;
   std::vector<Image> images = {};
   Replicates replicates = {};
 };
 
-/// The picture that the others are held against.
+/// The picture that all others are compared with.
 struct ReferencePicture {
   Image image;
   double spp = 0;
   double noise = 0;        ///< relmse
-  double relmse_floor = 0; ///< what relmse adds to squares of pixels, of every picture alike
+  double relmse_floor = 0; ///< added to squared pixels in the denominator of relmse, the same for every picture
 };
 
-// Of a pixel's channels, the mean square of how far an image is from another, relative to the reference.
+// Squared difference of two images at one pixel, relative to the reference, averaged over channels.
 double relative_square(const Image& image, const Image& from, const ReferencePicture& reference, std::size_t i) {
   const Eigen::Array3d off = image.pixels[i].cast<double>() - from.pixels[i].cast<double>();
   return (off.square() / (reference.image.pixels[i].cast<double>().square() + reference.relmse_floor)).sum() / 3;
 }
 
-// The mean of that.
+// The mean of relative_square over all pixels.
 double relmse(const Image& image, const Image& from, const ReferencePicture& reference) {
   double sum = 0;
   for (std::size_t i = 0; i < from.pixels.size(); ++i) sum += relative_square(image, from, reference, i);
   return sum / double(from.pixels.size());
 }
 
-// Of the picture that the reference begins with.
+// The floor for relmse, from the first reference picture.
 double relmse_floor_of(const Image& image) {
   double sum = 0;
   for (const render::Spectrum& p : image.pixels) sum += p.cast<double>().abs().sum();
@@ -77,9 +77,9 @@ mc::Moments squares_of(const PictureSeries& s, const ReferencePicture& reference
   return squares;
 }
 
-// Of the squares the noise of the reference is a part, or less where its points are more even than independent ones. An
-// error that may be all of the reference's is a bound. Bright pictures that are rare leave the mean of all squares
-// badly known, but not below the least of them.
+// The noise of the reference is part of the mean square and is subtracted. For points more even than independent ones
+// this noise may be overestimated. An error that the reference alone may explain becomes a bound. Rare bright pictures
+// make the mean of the squares uncertain, but it is not below the smallest square.
 mc::RmsError error_of(const PictureSeries& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   double least = squares.mean();
@@ -96,7 +96,8 @@ mc::RmsError error_of(const PictureSeries& s, const ReferencePicture& reference)
   return e;
 }
 
-// How many pictures make their error known to 10 %: the relative variance of a root is a quarter of its square's.
+// The number of pictures for which the relative standard error of the error is 10 %. The relative variance of a root
+// is a quarter of the relative variance of its square.
 int pictures_needed(const PictureSeries& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   const double square = squares.mean() - reference.noise;
@@ -104,14 +105,14 @@ int pictures_needed(const PictureSeries& s, const ReferencePicture& reference) {
   return static_cast<int>(std::clamp(std::ceil(needed), double(first_pictures), double(most_pictures)));
 }
 
-// The variance of the logarithm of an error of R repetitions is 1 / (2 R): how many make it that of these pictures.
+// The number R of repetitions that gives the log error of these pictures a variance of 1 / (2 R).
 std::uint32_t repetitions(const std::vector<mc::RmsError>& errors) {
   double most = 1e-6;
   for (const mc::RmsError& e : errors) most = std::max(most, mc::sqr(std::log(e.hi / e.rms) / 2));
   return static_cast<std::uint32_t>(std::clamp(1 / (2 * most), 2.0, 1e6));
 }
 
-// Its slope and middle, where there are errors for it.
+// Fits the slope and the centre of the curve, if it has enough errors.
 void fit(ConvergenceCurve& curve) {
   std::vector<mc::RmsError> known;
   double logs = 0;
@@ -125,13 +126,13 @@ void fit(ConvergenceCurve& curve) {
   curve.power_law = mc::fit_power_law(known, repetitions(known));
 }
 
-/// Of the expectation of a picture and of its noise.
+/// Bias of the mean picture and noise of a single picture.
 struct BiasAndNoise {
   double bias = 0, noise = 0; ///< relmse
-  mc::Moments pixels;         ///< of the bias, of which each has its part
+  mc::Moments pixels;         ///< contribution of each pixel to the bias
 };
 
-// Without the picture `out`: the mean picture of R has an R-th of the noise.
+// Estimates both without the picture `out`. The mean picture of R has 1 / R of the noise.
 BiasAndNoise bias_and_noise_of(const PictureSeries& s, const ReferencePicture& reference, std::size_t out) {
   Image mean(reference.image.width, reference.image.height);
   const double count = double(s.images.size() - (out < s.images.size() ? 1 : 0));
@@ -150,16 +151,17 @@ BiasAndNoise bias_and_noise_of(const PictureSeries& s, const ReferencePicture& r
   return parts;
 }
 
-/// What seconds a picture times the relmse of its noise are: the same at any number of samples.
+/// `work` is seconds per picture times the relmse of its noise: it does not depend on the number of samples.
 struct WorkAndBias {
   Bias bias;
   double work = 0;
-  double variance = 0; ///< of the logarithm of `work`
-  double dof = 1;      ///< behind it
+  double variance = 0; ///< variance of the logarithm of `work`
+  double dof = 1;      ///< degrees of freedom behind `variance`
 };
 
-// The intervals are those of the jackknife, wide enough for `ways` of them at once. Light of rare paths may be missing
-// in all pictures, which show no noise there: what only few pixels tell is no bias.
+// The intervals use the jackknife and hold simultaneously for all `methods`. Light from rare paths may be missing in
+// all
+// pictures, which then contain no noise there. So a difference in only a few pixels is not reported as bias.
 WorkAndBias bias_of(const PictureSeries& s, const ReferencePicture& reference, std::size_t methods) {
   const BiasAndNoise all = bias_and_noise_of(s, reference, s.images.size());
   mc::Moments biases, noises, seconds;
@@ -180,8 +182,8 @@ WorkAndBias bias_of(const PictureSeries& s, const ReferencePicture& reference, s
           dof};
 }
 
-// At the error e a way takes seconds work / (e^2 - bias^2), so that it pays above the error at which those of the best
-// way without a bias are as many.
+// At the error e a method takes work / (e^2 - bias^2) seconds. A biased method pays above the error at which this
+// equals the seconds of the best unbiased method.
 void set_break_even_errors(std::vector<WorkAndBias>& all) {
   const WorkAndBias* best = nullptr;
   for (const WorkAndBias& one : all)
@@ -193,7 +195,7 @@ void set_break_even_errors(std::vector<WorkAndBias>& all) {
       return share < 1 ? square_root / std::sqrt(1 - share) : mc::infinity<double>;
     };
     const double share = best && one.work > 0 ? one.work / best->work : 0.0;
-    double half = 0; // of the interval of the logarithm of the share
+    double half = 0; // half width of the interval of the logarithm of the share
     if (best)
       half = mc::student_quantile(0.05 / double(all.size()), std::min(one.dof, best->dof)) *
              std::sqrt(one.variance + best->variance);
@@ -208,7 +210,7 @@ bool is_black(const Image& image) {
                      [](const render::Spectrum& p) { return render::is_black(p); });
 }
 
-/// A measurement under way.
+/// State of a measurement in progress.
 class PictureSession {
  public:
   PictureSession(const render::SceneFile& file, const std::vector<RenderMethod>& methods, const PictureOptions& options)
@@ -235,12 +237,12 @@ class PictureSession {
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
   bool is_due(const RenderMethod& method) const { return !is_adaptive(method.allocation) || spp_ >= 32; }
   void show(double share, const std::string& where) const {
-    const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // of the samples of all levels
+    const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // samples of all levels
     if (options_.progress) options_.progress((before + share * spp_) / all, where);
   }
 
-  // Every way with the samples of this level, and the reference that this takes. Where it is cancelled it returns false
-  // and keeps nothing of it.
+  // Renders every method with the samples of this level, and refines the reference as needed. When cancelled, returns
+  // false and discards the level.
   bool measure_level() {
     std::vector<PictureSeries> level(methods_.size(), PictureSeries{double(spp_)});
     std::vector<int> wanted(methods_.size());
@@ -263,7 +265,7 @@ class PictureSession {
     return true;
   }
 
-  // A picture of every way in turn, again and again, until there are as many as are wanted. Returns whether there are.
+  // Renders the methods in turn until each has the wanted number of pictures. Returns false when cancelled.
   bool render_missing(std::vector<PictureSeries>& level, const std::vector<int>& wanted) const {
     const int most = *std::max_element(wanted.begin(), wanted.end());
     for (int r = 0; r < most; ++r)
@@ -281,7 +283,7 @@ class PictureSession {
     return true;
   }
 
-  // Adds to the reference until its error is a tenth of the smallest by noise of this level. Returns whether it is.
+  // Adds to the reference until its error is a tenth of the smallest noise of this level. Returns false when cancelled.
   bool refine_reference(const std::vector<PictureSeries>& level) {
     if (reference_.spp == 0 && !add_to_reference(16.0 * spp_)) return false;
     double smallest = mc::infinity<double>;
@@ -329,7 +331,7 @@ class PictureSession {
     return render::render(file_.scene, o);
   }
 
-  // What the levels that were finished tell.
+  // The result from the finished levels.
   PictureMeasurement collect() {
     PictureMeasurement result;
     if (options_.cost_rays) result.measurement.cost = ray_cost;
@@ -364,12 +366,12 @@ class PictureSession {
   const std::vector<RenderMethod>& methods_;
   const PictureOptions& options_;
   const Clock::time_point start_ = Clock::now();
-  std::vector<ConvergenceCurve> curves_; ///< of every way
-  std::vector<PictureSeries> level_;     ///< of every way, those of the last level
+  std::vector<ConvergenceCurve> curves_; ///< one for each method
+  std::vector<PictureSeries> level_;     ///< last level, one series for each method
   ReferencePicture reference_;
-  std::uint64_t references_ = 0; ///< pictures that the reference is the mean of
-  int spp_ = 4;                  ///< of this level
-  double last_ = 0;              ///< seconds that the last level took
+  std::uint64_t references_ = 0; ///< number of pictures averaged into the reference
+  int spp_ = 4;                  ///< samples per pixel of the current level
+  double last_ = 0;              ///< seconds of the last level
 };
 
 } // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Error of a scene's pictures against samples and seconds, for several ways to render it.
+/// Measures the error of a scene's pictures against samples and seconds, for several render methods.
 
 #include <converge/trade.h>
 
@@ -10,12 +10,12 @@
 
 namespace carlo {
 
-/// How samples become pixels.
+/// How samples are distributed over pixels.
 enum class SampleAllocation {
   uniform,
-  adaptive, ///< samples where the error is
-  splat,    ///< evenly, each sample for all pixels under the filter
-  tiles,    ///< evenly, 2x2 pixels share paths
+  adaptive, ///< more samples where the error is larger
+  splat,    ///< evenly, each sample added to all pixels under the filter
+  tiles,    ///< evenly, blocks of 2x2 pixels share paths
   adaptive_tiles
 };
 
@@ -26,7 +26,7 @@ inline bool uses_tiles(SampleAllocation s) {
   return s == SampleAllocation::tiles || s == SampleAllocation::adaptive_tiles;
 }
 
-/// One way to render.
+/// A combination of strategy, sampler, path length and sample allocation.
 struct RenderMethod {
   render::Strategy strategy = render::strategy_from("mis+lt");
   render::PixelSampler sampler = render::PixelSampler::sobol;
@@ -37,55 +37,62 @@ struct RenderMethod {
   std::string name() const;
 };
 
-/// Plain Monte Carlo: independent samples of paths that follow the surfaces and meet the lights by chance. Nothing
-/// where chance does not meet every light.
+/// Plain Monte Carlo: independent samples of BSDF-sampled paths that hit lights by chance. Nothing if such paths cannot
+/// hit every light.
 std::optional<RenderMethod> plain_mc_method(const render::SceneFile& file);
 
 struct PictureOptions {
   int width = 64, height = 64;
   int max_spp = 64;
-  int replicates = 0;     ///< pictures behind each error; 0: as many as make it known to 10 %, 8 to 64
-  bool cost_rays = false; ///< a second is a million rays: the same on every machine
-  double seconds = 0;     ///< wall-clock: no more samples where twice as many would not fit; 0: until max_spp
+  int replicates = 0;     ///< pictures behind each error; 0: 8 to 64, enough for a relative error of 10 %
+  bool cost_rays = false; ///< reports cost in millions of rays, which is the same on every machine, instead of seconds
+  double seconds = 0;     ///< wall-clock; the run ends where twice as many samples would not fit; 0: at max_spp
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(double done, const std::string& where)> progress = {};
 };
 
-/// What a way errs by however long it runs: paths that are too short, light that a strategy does not look for.
+/// The systematic error of a method, which does not decrease with samples: paths that are too short, or light that a
+/// strategy does not sample.
 struct Bias {
-  IntervalEstimate
-      bias;         ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %, and
-                    ///< counts the spread between pixels as chance, so that a bias is told by many of them
-  double noise = 0; ///< root of the relmse of one picture's noise
-  double n = 0;     ///< samples per pixel, the most
-  /// Where it is told from 0: the error above which it costs less than the best way without. Infinite where it may cost
-  /// more at any error, nothing where it does. The interval holds like that of the bias.
+  IntervalEstimate bias; ///< root of the relmse of the expected picture. The 95 % interval holds simultaneously for all
+                         ///< methods. It treats the
+                         ///< spread between pixels as random, so a bias is significant only if many pixels show it.
+  double noise = 0;      ///< root of the relmse of one picture's noise
+  double n = 0;          ///< largest number of samples per pixel
+  /// Error above which a method with a significant bias costs less than the best method without one. Infinite if the
+  /// method may cost more at any error; nothing if it does cost more. The interval is simultaneous like the bias
+  /// interval.
   std::optional<IntervalEstimate> break_even_error;
 };
 
-/// What was measured: N is samples per pixel, the error of a picture the root of its relmse, the mean over pixels and
-/// channels of (x - reference)^2 / (reference^2 + mean^2 / 10), less what the noise of the reference adds; mean: over
-/// the pixels and channels of the first reference, for every way, so that errors do not depend on the unit of light.
+/// The errors of all methods. N is samples per pixel. The error of a picture is the root of its relmse.
+///   relmse : mean over pixels and channels of (x - reference)^2 / (reference^2 + mean^2 / 10), minus the contribution
+///   of
+///            the reference's noise
+///   mean   : over the pixels and channels of the first reference, the same for every method, so that errors do not
+///            depend on the unit of light
 struct PictureMeasurement {
-  std::deque<SamplingMethod> methods; ///< that the curves point to
+  std::deque<SamplingMethod> methods; ///< the curves point to these
   Measurement measurement;            ///< its truth is an error of 0
-  std::vector<Bias> biases;           ///< of the ways
+  std::vector<Bias> biases;           ///< one for each method
   render::Image reference;
-  std::vector<render::Image> pictures; ///< one of each way, of its most samples
-  double reference_error = 0;          ///< root of the relmse that the reference's noise is
+  std::vector<render::Image> pictures; ///< one for each method, with its largest number of samples
+  double reference_error = 0;          ///< root of the relmse caused by the noise of the reference
   double reference_spp = 0;
 };
 
-/// Every way on 4, 8, ... max_spp samples per pixel (adaptive ones from 32), taken in turn, so that a busy moment falls
-/// on all of them. 95 % intervals of the errors by Student's t over the pictures; an error that is not told from the
-/// reference's is a bound. When interrupted, what was measured
-/// with fewer samples is kept; the ways that were begun are those of the result.
-///   theory    : N^-1/2 for independent samples, spent evenly, whose bias is not told from 0
-///   reference : mis+lt, sobol and the scene's longest path; at each number of samples so many more as bring its
-///               error to a tenth of the smallest by noise
-///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16 or above 2^28
+/// Runs every method with 4, 8, ... max_spp samples per pixel (adaptive ones from 32). The methods take turns, so that
+/// other load on the machine affects all of them. The 95 % intervals of the errors use Student's t over the pictures.
+/// An
+/// error that is not significantly larger than the reference's is a bound. After an interrupt the result holds the
+/// finished levels and the methods with at least one.
+///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias
+///   reference : mis+lt, sobol and the scene's longest path; at each level its samples grow until its error is a tenth
+///   of
+///               the smallest noise
+///   throws    : Error for a black scene, no methods, fewer than 3 pictures, or max_spp below 16 or above 2^28
 PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
                                     const PictureOptions& options);
 

@@ -16,9 +16,9 @@ namespace {
 
 using BandEdge = double mc::RmsError::*;
 
-constexpr double farthest = 2; ///< an error that is known badly may have reached one by as much smaller, and no less
+constexpr double farthest = 2; ///< an uncertain error may have reached a goal smaller by this factor, but not by more
 
-// The first N from which an edge of the band stays below the error; between two N a straight line in the logarithms.
+// The first N from which an edge of the band stays below the error, by linear interpolation in the logarithms.
 std::optional<double> crossing(const std::vector<mc::RmsError>& errors, BandEdge edge, double error) {
   std::optional<std::size_t> first;
   for (std::size_t i = errors.size(); i-- > 0 && errors[i].*edge <= error;) first = i;
@@ -31,13 +31,13 @@ std::optional<double> crossing(const std::vector<mc::RmsError>& errors, BandEdge
   return above.n * std::pow(below.n / above.n, t);
 }
 
-// The error at n, by straight lines in the logarithms; at the ends those of the first and last two points.
+// The error at n by linear interpolation in the logarithms; extrapolates from the first or last two points.
 double error_at(const std::vector<mc::RmsError>& errors, BandEdge edge, double n) {
   if (errors.size() < 2) return errors.front().*edge;
   std::size_t i = 1;
   while (i + 1 < errors.size() && errors[i].n < n) ++i;
   const mc::RmsError &a = errors[i - 1], &b = errors[i];
-  if (!(a.*edge > 0 && b.*edge > 0)) return edge == &mc::RmsError::lo ? 0 : b.*edge; // a bound beside it
+  if (!(a.*edge > 0 && b.*edge > 0)) return edge == &mc::RmsError::lo ? 0 : b.*edge; // one of the neighbours is a bound
   return a.*edge * std::pow(b.*edge / (a.*edge), std::log(n / a.n) / std::log(b.n / a.n));
 }
 
@@ -64,13 +64,13 @@ const ConvergenceCurve* plain_mc_curve(const Measurement& m) {
   return nullptr;
 }
 
-// Nothing where neither end is known.
+// Nothing if neither edge is known.
 std::optional<IntervalEstimate> ratio(const IntervalEstimate& a, const IntervalEstimate& b) {
   const IntervalEstimate r{a.value / b.value, a.lo / b.hi, a.hi / b.lo};
   return r.is_upper_bound() && r.is_lower_bound() ? std::nullopt : std::optional(r);
 }
 
-// The first offers, and plain Monte Carlo where it is one.
+// The first candidates, and plain Monte Carlo if it is a candidate.
 std::vector<TradeCandidate> contenders(const std::vector<TradeCandidate>& candidates, const std::string& plain_name) {
   constexpr std::size_t most = 6;
   std::vector<TradeCandidate> chosen(
@@ -80,7 +80,7 @@ std::vector<TradeCandidate> contenders(const std::vector<TradeCandidate>& candid
   return chosen;
 }
 
-// Seconds of one evaluation near the N of an offer: the first of three replicates fills caches, the last counts.
+// Seconds of one evaluation near a candidate's N. The first two of three replicates fill caches; the last is timed.
 double remeasured_seconds(const IntegralTarget& target, const TradeCandidate& o, std::uint64_t seed,
                           std::uint64_t round, const std::atomic<bool>* cancel) {
   const std::vector<mc::RmsError>& errors = o.curve->errors;
@@ -90,7 +90,7 @@ double remeasured_seconds(const IntegralTarget& target, const TradeCandidate& o,
   return r.seconds[2] / std::max(r.calls[2], 1.0);
 }
 
-/// Whether an offer cannot be told from the first of all.
+/// Whether a candidate is not significantly different from the first one.
 class TiesWithFirst {
  public:
   TiesWithFirst(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion)
@@ -110,18 +110,19 @@ class TiesWithFirst {
   double wider_ = 1, most_ = 0;
 };
 
-// At the N that a time is enough for, as far as it was measured.
+// The candidate at the N that fits into a time, within the measured range.
 TradeCandidate candidate_within(const ConvergenceCurve& c, const IntervalEstimate& range,
                                 const EvaluationCost& evaluation_cost) {
   TradeCandidate candidate = candidate_at(c, range, evaluation_cost);
-  // Fewer evaluations where they take longer than their median.
+  // If evaluations take longer than the median, fewer of them fit into the time.
   const double most = c.errors.back().n;
   candidate.error.lo = std::min(candidate.error.lo, error_at(c.errors, &mc::RmsError::lo, std::min(range.hi, most)));
   candidate.error.hi = std::max(candidate.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
   return candidate;
 }
 
-// A time is enough for more than was measured: plain Monte Carlo by its law, another at its largest N.
+// The candidate if the time suffices for more than the largest N. Plain Monte Carlo is extrapolated by its law; any
+// other method stays at its largest N.
 TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c, const IntervalEstimate& range,
                                 const IntervalEstimate& one) {
   const mc::RmsError& last = c.errors.back();
@@ -136,7 +137,7 @@ TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c,
             {fallen(last.rms, range.value, -0.5), fallen(last.lo, range.hi, -0.5), fallen(last.hi, range.lo, -0.5)}};
   }
   const double steepest = std::min(c.power_law ? c.power_law->lo : -1, -0.5);
-  const double rounded = std::min(last.lo, 1e-16 * m.magnitude); // below which nothing falls
+  const double rounded = std::min(last.lo, 1e-16 * m.magnitude); // rounding limits the error
   return {&c,
           last.n,
           {last.n * one.value, last.n * one.lo, last.n * one.hi},
@@ -144,7 +145,7 @@ TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c,
           !c.exact && last.rms > 0};
 }
 
-// The best first, then what ties with it, then the others.
+// Sorts by value, then moves the candidates that tie with the best to the front.
 void rank(std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) {
   std::sort(candidates.begin(), candidates.end(), [criterion](const TradeCandidate& a, const TradeCandidate& b) {
     return (a.*criterion).value < (b.*criterion).value;
@@ -182,8 +183,8 @@ EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement&
       if (cancel && *cancel) return measured_cost;
       seconds[o.curve].push_back(remeasured_seconds(target, o, seed, round, cancel));
     }
-  if (cancel && *cancel) return measured_cost; // the last one means nothing
-  // The second and the eighth of nine hold the median with 96 % confidence.
+  if (cancel && *cancel) return measured_cost; // the last run is invalid
+  // The second and the eighth of nine values enclose the median with 96 % confidence.
   std::map<const ConvergenceCurve*, IntervalEstimate> medians;
   for (auto& [curve, all] : seconds) {
     std::sort(all.begin(), all.end());
@@ -204,7 +205,7 @@ std::optional<IntervalEstimate> evaluations_to_reach(const ConvergenceCurve& c, 
   if (!lo) return {};
   const mc::RmsError& last = c.errors.back();
   if (last.rms > farthest * error) return {};
-  // What does not come so low goes on no slower than plain Monte Carlo.
+  // An edge that does not fall so low is extrapolated with the rate of plain Monte Carlo.
   const auto needed = [&](BandEdge edge) {
     return crossing(c.errors, edge, error).value_or(last.n * mc::sqr(last.*edge / error));
   };
@@ -247,14 +248,14 @@ CandidatesForTime candidates_for_time(const Measurement& m, double seconds, cons
     const double most = c.errors.back().n;
     IntervalEstimate one = evaluation_cost(c, most);
     const double n = std::min(most, seconds / one.value);
-    if (n < c.errors.front().n) continue; // it cannot even begin
+    if (n < c.errors.front().n) continue; // its smallest N does not fit into the time
     one = evaluation_cost(c, n);
     const IntervalEstimate range{seconds / one.value, seconds / one.hi, seconds / one.lo};
     result.candidates.push_back(range.value > most ? candidate_beyond(m, c, range, one)
                                                    : candidate_within(c, range, evaluation_cost));
   }
   rank(result.candidates, &TradeCandidate::error);
-  for (const TradeCandidate& o : result.candidates) // an exact way gains nothing that a number says
+  for (const TradeCandidate& o : result.candidates) // no gain is reported if the best method is exact
     if (o.curve == plain_mc_curve(m) && result.candidates.front().error.value > 0)
       result.gain = ratio(o.error, reported_interval(result.candidates.front(), &TradeCandidate::error));
   return result;

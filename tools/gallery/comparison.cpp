@@ -7,8 +7,9 @@ namespace carlo {
 
 namespace {
 
-// The mean luminance of a picture. Its pixels are independent, or say how many share their noise; its channels are not,
-// so their errors add up at worst.
+// The mean luminance of a picture. Pixels are independent, or noise_area states how many share their noise. Channels
+// are
+// correlated, so their errors are added linearly, which is the worst case.
 mc::Estimate mean_luminance(const render::Image& image, std::uint32_t estimates) {
   double sum = 0, variance = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -38,7 +38,7 @@ Image thumbnail(const Image& image, int side) {
 
 Image contact_sheet(const std::vector<Image>& thumbnails, int columns, int side) {
   const int n = static_cast<int>(thumbnails.size()), rows = (n + columns - 1) / columns;
-  std::vector<int> top(static_cast<std::size_t>(rows) + 1, gap); // of each row
+  std::vector<int> top(static_cast<std::size_t>(rows) + 1, gap); // first pixel of each row
   for (int row = 0; row < rows; ++row) {
     int highest = 0;
     for (int i = row * columns; i < std::min(n, (row + 1) * columns); ++i)

@@ -29,7 +29,7 @@ struct FeatureRow {
 std::vector<FeatureRow> rows() {
   std::vector<FeatureRow> all;
   for (const mitsuba::Kind& kind : mitsuba::all_plugins()) {
-    const std::string tag = kind.tag.substr(0, kind.tag.find(' ')); // of "emitter in a shape"
+    const std::string tag = kind.tag.substr(0, kind.tag.find(' ')); // without the rest of "emitter in a shape"
     const bool alike = std::all_of(kind.rows.begin(), kind.rows.end(),
                                    [&](const auto& plugin) { return plugin.meaning == kind.rows.front().meaning; });
     if (alike && kind.rows.size() > 1) all.push_back({tag, {}});

@@ -1,5 +1,5 @@
 #pragma once
-/// Which scene of the gallery requires which feature. A feature is a plugin of the scene reader, or a strategy.
+/// Lists which scene of the gallery requires which feature. A feature is a plugin of the scene reader, or a strategy.
 
 #include <gallery/scenes.h>
 
@@ -8,21 +8,21 @@
 
 namespace carlo {
 
-/// A feature as words: "bsdf dielectric", "strategy mixture". A kind whose plugins all mean the same is one feature:
+/// A feature as words: "bsdf dielectric", "strategy mixture". A kind in which all plugins mean the same is one feature:
 /// "sampler".
 using Feature = std::string;
 
-/// Everything that a scene may ask for, in the order of the reference.
+/// Everything that a scene may require, in the order of the reference.
 std::vector<Feature> all_features();
 
-/// What a scene of the gallery asks for, in the same order.
-///   throws : Error where its file cannot be read
+/// The features that a scene of the gallery requires, in the same order.
+///   throws : Error if its file cannot be read
 std::vector<Feature> features_of(const GalleryScene& scene);
 
-/// A table of the kinds of features: each with the number of the scenes that require it, or the only one.
+/// A table of the kinds of features: each with the number of scenes that require it, or with the only such scene.
 std::string features_text();
 
-/// The scenes with their sources, and the table of features with the scenes that require them, as Markdown.
+/// Markdown with the scenes, their sources, and the table of features with the scenes that require them.
 std::string gallery_text();
 
 } // namespace carlo

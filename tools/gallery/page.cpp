@@ -15,7 +15,7 @@ std::string percent(double share) {
   return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
 }
 
-// Means are told relative to the one that is known best, work relative to the least.
+// Means are relative to the most precise mean, work is relative to the least work.
 std::string strategies_of(const RenderedScene& r) {
   const StrategyResult* best = most_precise(r.strategies);
   if (!best || !(best->mean.value > 0)) return {};

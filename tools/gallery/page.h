@@ -1,5 +1,5 @@
 #pragma once
-/// The rendered gallery as one page.
+/// The rendered gallery as one HTML page.
 
 #include <gallery/comparison.h>
 #include <gallery/features.h>
@@ -9,7 +9,7 @@
 
 namespace carlo {
 
-/// A scene of the gallery with what its render found.
+/// A scene of the gallery and the statistics of its render.
 struct RenderedScene {
   const GalleryScene* scene = nullptr;
   int width = 0, height = 0;
@@ -17,11 +17,11 @@ struct RenderedScene {
   double relative_error = 0, outlier_dominated = 0; ///< see RenderResult
   std::string strategy, sampler;
   std::vector<Feature> features;
-  std::vector<StrategyResult> strategies; ///< empty where they were not compared
+  std::vector<StrategyResult> strategies; ///< empty if they were not compared
 };
 
-/// HTML that shows NAME.png of every scene, in the folder of the page, and needs no script and no network.
-///   requested : how many scenes were asked for; fewer were rendered when it was interrupted
+/// HTML that shows NAME.png of every scene, from the folder of the page. It needs no script and no network.
+///   requested : number of requested scenes; an interrupted run renders fewer
 std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t requested, const std::string& command);
 
 } // namespace carlo

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view ours = "ours";
 
-// Members that a row leaves out are those of carlo render.
+// Members that a row omits have the defaults of carlo render.
 constexpr auto scenes = std::to_array<GalleryScene>({
     // P. Shirley, Ray Tracing in One Weekend
     {"book1-gradient", "Red and green grow along the axes", "P. Shirley, In One Weekend, ch. 1"},
@@ -65,7 +65,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"smallpt-naive", "The same by chance alone", "K. Beason, smallpt", "smallpt", "bsdf"},
     {"smallpt-nee", "The same by connections to the light alone", "K. Beason, smallpt", "smallpt", "nee"},
 
-    // lajolla's document: its scenes, and for each of its figures one of ours
+    // Scenes of lajolla's document, and one scene of our own for each of its figures
     {"cbox", "Cornell box with measured spectra", "Cornell Program of Computer Graphics, by way of Mitsuba", "cbox", "",
      "", 1},
     {"veach-mi", "Plates of four roughnesses, lights of five sizes", "E. Veach, by way of lajolla"},
@@ -81,7 +81,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"mesh-formats", "Torus and trefoil knot", ours},
     {"globe", "A map about a ball, tiles about a box, under an evening sky", ours},
 
-    // The stages of real-time ray tracing courses, in a room of ours
+    // Stages of real-time ray tracing courses, in a room of our own
     {"hard-shadows", "A room lit by two points and by the sun", ours},
     {"fast-lens", "The room through a lens of f/1.4, focused on the ball", ours},
     {"ambient-occlusion", "The room by what is near", ours},

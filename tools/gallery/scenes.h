@@ -1,5 +1,5 @@
 #pragma once
-/// The gallery: the scenes that carlo knows by name.
+/// The gallery: the named scenes of carlo.
 
 #include <render/film/tone_mapping.h>
 
@@ -9,30 +9,30 @@
 
 namespace carlo {
 
-/// A scene file, and how it is rendered where its source says more than the file does.
+/// A scene file with render settings that the file does not contain.
 struct GalleryScene {
-  std::string_view name; ///< as carlo gallery and carlo render take it
+  std::string_view name; ///< name for carlo gallery and carlo render
   std::string_view title;
-  std::string_view source;        ///< what it was learned from
-  std::string_view file = {};     ///< without .xml, in the folder of the scenes; empty: its name
-  std::string_view strategy = {}; ///< empty: carlo render's
-  std::string_view sampler = {};  ///< empty: carlo render's
-  double exposure = 0;            ///< of its PNG [stops]
-  int spp = 0;                    ///< samples per pixel; 0: the file's
+  std::string_view source;        ///< book, course or program that the scene comes from
+  std::string_view file = {};     ///< without .xml, in the folder of the scenes; empty: same as the name
+  std::string_view strategy = {}; ///< empty: the default of carlo render
+  std::string_view sampler = {};  ///< empty: the default of carlo render
+  double exposure = 0;            ///< exposure of its PNG [stops]
+  int spp = 0;                    ///< samples per pixel; 0: the value in the file
   render::ToneCurve tone = render::ToneCurve::clamp;
 };
 
-/// All of them, by source in the order of the text.
+/// All scenes, grouped by source in the order of the documentation.
 std::span<const GalleryScene> gallery();
 
-/// Throws Error, naming the nearest, for an unknown name.
+/// The scene with this name. Throws Error that suggests the nearest name if there is none.
 const GalleryScene& gallery_scene(std::string_view name);
 
-/// How its PNG is made.
+/// Tone curve and exposure of its PNG.
 inline render::ToneMapping tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
 
-/// The path of its file: of an installed carlo beside its other data, of one in its build tree in the project.
-///   throws : Error that names both places where the scenes are at neither
+/// The path of its file: among the installed data, or in the source tree for a carlo in its build tree.
+///   throws : Error that names both places if the scenes are in neither
 std::string scene_file(const GalleryScene& scene);
 
 } // namespace carlo

@@ -1,5 +1,5 @@
 #pragma once
-/// What carlo render --compare-strategies shows.
+/// Output of carlo render --compare-strategies.
 
 #include <gallery/comparison.h>
 
@@ -13,14 +13,17 @@ namespace carlo {
 /// Samples per pixel of the strip's columns.
 inline constexpr std::array<int, 6> strip_spp = {1, 4, 16, 64, 256, 1024};
 
-/// The picture that `settings` describes by every strategy that finds all lights, a row each, with the samples per
-/// pixel of strip_spp, as `tone` shows them. Empty when settings.cancel is set before the end.
+/// A strip of pictures: one row for each strategy that finds all lights, one column for each value of strip_spp, with
+/// `tone` applied. Empty if settings.cancel is set before the end.
 render::Image strategy_strip(const render::Scene& scene, render::RenderOptions settings,
                              const render::ToneMapping& tone);
 
-/// A line for each strategy: its error with the same samples and in the same time, what a given error costs beside the
-/// cheapest that misses no light, and the mean of its picture beside that known best, with its standard error.
-///   throws : Error where one of them was made with other strategies than the other
+/// A line for each strategy. It has the error with equal samples and in equal time, and the cost of a given error
+/// relative
+/// to the cheapest strategy that samples all light. It has the mean of the picture with its standard error, relative to
+/// the
+/// most precise mean.
+///   throws : Error if the two lists hold different strategies
 std::string strategy_table(const std::vector<StrategyResult>& same_samples,
                            const std::vector<StrategyResult>& same_time);
 

@@ -1,4 +1,4 @@
-/// The only file that includes muParser.
+/// This is the only file that includes muParser.
 
 #include <integrands/expression.h>
 #include <integrands/variable_bounds.h>
@@ -27,7 +27,7 @@ double whole_below(double a) { return std::floor(a); }
 double chosen(double condition, double yes, double no) { return condition != 0 ? yes : no; }
 
 void define_words(mu::Parser& parser) {
-  parser.ClearConst(); // muParser's own pi and e have 13 digits
+  parser.ClearConst(); // muParser's own pi and e have only 13 digits
   parser.DefineConst("_pi", 3.14159265358979323846);
   parser.DefineConst("_e", 2.71828182845904523536);
   parser.DefineOprt("and", both, mu::prLAND);
@@ -37,7 +37,7 @@ void define_words(mu::Parser& parser) {
   parser.DefineFun("floor", whole_below);
 }
 
-// How other languages write things, and how expressions do.
+// Notation of other languages, and the equivalent in expressions.
 struct Habit {
   std::string_view text, remedy;
 };
@@ -56,17 +56,17 @@ constexpr Habit habits[] = {
 
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-// What to write instead of what the parser stumbled over; empty: unknown.
+// The correct notation for the text at which the parser failed; empty if unknown.
 std::string_view remedy(std::string_view expression, std::size_t at, const std::vector<std::string>& names) {
   const std::size_t last = at > 0 ? expression.find_last_not_of(" \t", at - 1) : expression.npos;
-  const std::string_view before = expression.substr(0, last + 1); // of nothing, too: npos + 1 is 0
+  const std::string_view before = expression.substr(0, last + 1); // also for no text: npos + 1 is 0
   std::string_view here = expression.substr(at);
   const auto in_value = [](char c) { return in_word(c) || c == '.'; };
   const bool two_values = !before.empty() && !here.empty() && (in_value(before.back()) || before.back() == ')') &&
                           (in_value(here[0]) || here[0] == '(');
   if (here.starts_with('*') && before.ends_with('*')) here = expression.substr(before.size() - 1);
   const std::size_t digits = std::min(here.find_first_not_of("0123456789."), here.size());
-  here.remove_prefix(digits); // 2pi is one word to the parser
+  here.remove_prefix(digits); // the parser reads 2pi as one word
   const bool glued = digits > 0 && !here.empty() && in_word(here[0]);
   for (const Habit& h : habits)
     if (here.starts_with(h.text) && std::find(names.begin(), names.end(), h.text) == names.end() &&
@@ -92,7 +92,7 @@ mc::Error refusal(const std::string& expression, const mu::Parser::exception_typ
       fmt::format("expression '{}', position {}: {}", abbreviate(expression, at), at, abbreviate(complaint)));
 }
 
-// muParser takes "x = 0.5" for an assignment, even within a sum.
+// muParser reads "x = 0.5" as an assignment, even within a sum.
 void refuse_assignment(std::string_view expression) {
   for (std::size_t at = expression.find('='); at != expression.npos; at = expression.find('=', at + 1)) {
     const bool second = at > 0 && std::string_view("=<>!").find(expression[at - 1]) != std::string_view::npos;
@@ -102,9 +102,9 @@ void refuse_assignment(std::string_view expression) {
   }
 }
 
-// muParser takes "0.2 < x < 0.5" for (0.2 < x) < 0.5.
+// muParser reads "0.2 < x < 0.5" as (0.2 < x) < 0.5.
 void refuse_chain(std::string_view expression) {
-  std::vector<bool> compared(1); // within each parenthesis that is open, since the last word that joins
+  std::vector<bool> compared(1); // for each open parenthesis: whether a comparison follows the last joining word
   for (std::size_t at = 0; at < expression.size(); ++at) {
     const std::string_view here = expression.substr(at);
     const char c = here[0];
@@ -125,7 +125,7 @@ void refuse_chain(std::string_view expression) {
   }
 }
 
-// A parser with its variables: muParser evaluates in place, so each thread needs its own.
+// A parser with its variables. muParser evaluates in place, so each thread needs its own instance.
 struct Instance {
   mu::Parser parser;
   std::vector<double> values;
@@ -153,7 +153,7 @@ struct Instance {
 
 std::string abbreviate(std::string_view text, std::size_t at) {
   constexpr std::size_t most = 60;
-  const auto whole = [&](std::size_t i) { // no character of several bytes is cut
+  const auto whole = [&](std::size_t i) { // does not cut a multi-byte character
     while (i > 0 && i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80) --i;
     return i;
   };
@@ -183,7 +183,7 @@ std::function<double(std::span<const double>)> parse_function(const std::string&
   static std::atomic<std::uint64_t> ids = 0;
   const std::uint64_t id = ++ids;
   return [=](std::span<const double> x) {
-    // A few, for several that are evaluated in turn.
+    // A small cache, since several expressions may be evaluated in turn.
     thread_local std::array<std::uint64_t, 16> owners{};
     thread_local std::array<std::unique_ptr<Instance>, 16> instances;
     const std::size_t place = id % owners.size();
@@ -203,7 +203,7 @@ UnitCubeIntegral parse_expression(const std::string& expression, const std::stri
   const std::vector<VariableBounds> bounds = parse_bounds(box);
   mc::require(bounds.size() <= 32, "--domain: {} variables; at most 32 are possible", bounds.size());
   std::vector<std::string> names;
-  long double product = 1; // of large and small sides, in any order
+  long double product = 1; // long double: sides may be large and small in any order
   for (const VariableBounds& s : bounds) {
     names.push_back(s.name);
     if (s.is_finite()) product *= s.hi - s.lo;
@@ -227,7 +227,7 @@ UnitCubeIntegral parse_expression(const std::string& expression, const std::stri
       const MappedPoint at = map_to_bounds(bounds[i], u[i]);
       x[i] = at.x;
       if (bounds[i].is_finite()) continue;
-      if (std::isinf(at.x)) return std::pair(0.0, 0.0); // an end at infinity: no point of the domain
+      if (std::isinf(at.x)) return std::pair(0.0, 0.0); // an end at infinity is no point of the domain
       scale *= at.slope;
     }
     return std::pair(scale, f(std::span(x).first(bounds.size())));
@@ -238,7 +238,7 @@ UnitCubeIntegral parse_expression(const std::string& expression, const std::stri
   };
   e.underflows_at = [factors](std::span<const double> u) {
     const auto [scale, value] = factors(u);
-    // A value that is next to 0 itself is the far end of a peak.
+    // A value that is itself nearly 0 belongs to the far tail of a peak and is no underflow of the product.
     return scale * value == 0 && std::abs(value) >= std::numeric_limits<double>::min();
   };
   e.describe_point = [bounds](std::span<const double> u) {

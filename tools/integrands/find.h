@@ -1,15 +1,15 @@
 #pragma once
-/// Integrands by what the user types.
+/// Finds integrands by name or by expression.
 
 #include <integrands/unit_cube_integral.h>
 
 namespace carlo {
 
-/// Those with a name: of the books, Genz's, and those of the rates.
+/// All integrands with a name: textbook, Genz and rate integrals.
 std::vector<const UnitCubeIntegral*> named_integrands();
 
-/// The one of that name, or, with bounds "x=0:1,y=-1:2" or where the text is no name, an expression.
-///   throws : Error naming the nearest for an unknown name, and for an expression or bounds that mean nothing
+/// The integrand with this name. With bounds "x=0:1,y=-1:2", or if the text is not a name, it is an expression.
+///   throws : Error for an unknown name, with the nearest one, and for an invalid expression or invalid bounds
 UnitCubeIntegral find_integrand(const std::string& text, const std::string& bounds);
 
 } // namespace carlo

@@ -13,7 +13,7 @@ namespace carlo {
 namespace {
 
 using UnitPoint = std::span<const double>;
-using Parameters = std::vector<double>; // c: how hard, w: where
+using Parameters = std::vector<double>; // c: difficulty for each axis, w: position
 
 struct Family {
   const char* name;

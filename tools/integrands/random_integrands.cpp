@@ -111,7 +111,7 @@ UnitCubeIntegral power_law(const char* name, Draw d, double least, double most) 
     return (std::pow(a[i], 1 - p[i]) + std::pow(1 - a[i], 1 - p[i])) / (1 - p[i]);
   };
   return d.made(name, product(p, side), [p, a](UnitPoint x) {
-    // The point itself, met with probability 2^-53, stands for its neighbourhood.
+    // The value at the singular point itself is clamped. A sample hits it with probability 2^-53.
     double f = 1;
     for (std::size_t i = 0; i < p.size(); ++i) f *= std::pow(std::max(std::abs(x[i] - a[i]), 0x1p-60), -p[i]);
     return f;
@@ -148,7 +148,7 @@ UnitCubeIntegral peaks(std::uint64_t seed) {
   });
 }
 
-// Rows of unit length at right angles.
+// Random orthonormal rows.
 std::vector<std::vector<double>> turned_axes(Draw& d) {
   std::vector<std::vector<double>> rows;
   for (int k = 0; k < d.dim; ++k) {
@@ -164,7 +164,7 @@ std::vector<std::vector<double>> turned_axes(Draw& d) {
   return rows;
 }
 
-// Five standard deviations fit on every side: 6e-7 of the mass is outside.
+// A Gaussian with five standard deviations inside the cube on every side: 6e-7 of its mass is outside.
 UnitCubeIntegral turned(const char* name, Draw& d, const std::vector<double>& width) {
   const std::vector<std::vector<double>> axes = turned_axes(d);
   const std::vector<double> centre = d.each(0.42, 0.58);

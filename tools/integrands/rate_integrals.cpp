@@ -14,7 +14,7 @@ using UnitPoint = std::span<const double>;
 using Class = Smoothness::Class;
 
 constexpr double edge = 2.0 / 3, corner = 0.15;
-// The normal of the plane and its place: no ratio is simple.
+// The normal of the plane and its offset. No two components have a simple ratio.
 constexpr double normal[] = {
     1,     0.7548776662466927, 0.5698402909980532, 0.8191725133961645, 0.6710436067037893, 0.9243, 0.6180339887498949,
     0.8650};
@@ -30,7 +30,7 @@ double along(UnitPoint u) {
   return sum;
 }
 
-// The mean of G_d-th derivative of G over the cube, G a function of a . x - b: signed values of G at the corners.
+// The mean over the cube of the d-th derivative of g at a . x - b: the signed sum of g over the corners.
 template <class G> double mean_over_cube(int d, G&& g) {
   double sum = 0, product = 1;
   for (int i = 0; i < d; ++i) product *= normal[i];
@@ -46,7 +46,7 @@ template <class G> double mean_over_cube(int d, G&& g) {
 double kink_truth(int d) {
   return mean_over_cube(d, [d](double t) { return std::abs(t) * std::pow(t, d) / std::tgamma(d + 2); });
 }
-// The mean of 1 where a . x < b is 1 minus that of the step at b.
+// The mean of 1 where a . x < b is 1 minus the mean of the step function at b.
 double jump_truth(int d) {
   return 1 - mean_over_cube(d, [d](double t) { return t > 0 ? std::pow(t, d) / std::tgamma(d + 1) : 0.0; });
 }

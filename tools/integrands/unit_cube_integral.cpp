@@ -14,7 +14,7 @@ namespace {
 
 using UnitPoint = std::span<const double>;
 
-// Darts at the cube [-1,1]^d: volume of the cube where they hit the unit ball.
+// Hit-or-miss in the cube [-1,1]^d: the volume of the cube for points in the unit ball, otherwise 0.
 double ball(UnitPoint u) {
   double r2 = 0;
   for (const double x : u) r2 += mc::sqr(2 * x - 1);
@@ -76,7 +76,7 @@ std::vector<UnitCubeIntegral> make() {
        week3 + "7",
        2,
        pi / 2,
-       {Class::kink}, // the disk's concentric map bends along the diagonals
+       {Class::kink}, // the concentric map of the disk has a kink along the diagonals
        64,
        cos3_cosine},
       {"ball_3d", "volume of the ball in 3 dimensions by darts", week3 + "2", 3, 4 * pi / 3, {Class::jump}, 64, ball},

@@ -1,5 +1,5 @@
 #pragma once
-/// The integrals of the books, each with its true value.
+/// Integrals over the unit cube, and the textbook integrals with their true values.
 
 #include <functional>
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace carlo {
 
-/// How smooth an integrand is, which decides how fast samplers converge.
+/// The smoothness class of an integrand, which determines the convergence rate of samplers.
 ///   additive  : smooth, a sum of functions of one coordinate each
-///   axis_kink : Lipschitz, its bends parallel to the axes; kink: in any other surface
+///   axis_kink : Lipschitz, with kinks parallel to the axes; kink: with kinks in any other surface
 ///   axis_jump : jumps at faces parallel to the axes; jump: at any other surface
-///   corner    : product of x^-corner_exponent; where that is < 0 the slope is infinite there
-///   matching_faces : it has the same values on opposite faces of the cube, but other slopes
+///   corner    : product of x^-corner_exponent; if the exponent is < 0, the slope at 0 is infinite
+///   matching_faces : equal values on opposite faces of the cube, but different slopes
 struct Smoothness {
   enum class Class { unknown, smooth, additive, periodic, axis_kink, kink, axis_jump, jump, corner };
   Class kind = Class::unknown;
@@ -31,24 +31,25 @@ struct UnitCubeIntegral {
   std::string title; ///< one line, for lists and plots
   std::string source;
   int dim;
-  double truth; ///< NaN: unknown
+  double truth; ///< NaN if unknown
   Smoothness smoothness;
-  double min_fit_n;                     ///< smallest N in the asymptotic range; 0: unknown
+  double min_fit_n;                     ///< smallest N in the asymptotic range; 0 if unknown
   std::function<double(UnitPoint u)> f; ///< of u in [0,1)^dim; its mean is the integral
-  /// Several at once, points one after another; may be empty.
+  /// Evaluates several points, stored one after another; may be empty.
   std::function<void(UnitPoint points, std::span<double> values)> f_batch = {};
   std::function<std::string(UnitPoint u)> describe_point =
-      {}; ///< "x = 0.5, y = 1", the point of its own domain; may be empty
-  /// Whether the value at u is 0 since it is too small for a double, and that of its expression is not; may be empty.
+      {}; ///< "x = 0.5, y = 1": the point in the original domain; may be empty
+  /// Whether the value at u underflows to 0 although the value of its expression does not; may be empty.
   std::function<bool(UnitPoint u)> underflows_at = {};
 };
 
-/// The integrand at each of the points.
-///   throws : Error with the first place where it is not finite
+/// Evaluates the integrand at each of the points.
+///   throws : Error with the first point at which it is not finite
 void evaluate(const UnitCubeIntegral& e, UnitCubeIntegral::UnitPoint points, std::span<double> values);
 
-/// Throws Error where 4096 values are all 0 and some of them underflow: to be asked of an integrand that was 0 at every
-/// point, which may be the volume's doing.
+/// Throws Error if 4096 values are all 0 and some of them underflow. Callers use it for an integrand that was 0 at
+/// every
+/// point, since the volume of its domain may be the cause.
 void refuse_underflow(const UnitCubeIntegral& e);
 
 const std::vector<UnitCubeIntegral>& textbook_integrals();

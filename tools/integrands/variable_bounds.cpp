@@ -10,7 +10,7 @@
 namespace carlo {
 namespace {
 
-// A number, inf, or a constant expression as 2*_pi, whose value is finite.
+// A number, inf, or a constant expression with a finite value, such as 2*_pi.
 double bound(std::string_view text, std::string_view side) {
   const std::string word(mc::trimmed(text));
   if (const auto number = mc::parse_double(word); number && !std::isnan(*number)) return *number;

@@ -1,5 +1,5 @@
 #pragma once
-/// Boxes on the command line.
+/// Bounds of variables, parsed from an option.
 
 #include <cmath>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace carlo {
 
-/// A variable with its bounds, lo < hi; either may be infinite.
+/// A variable with its bounds, lo < hi; each may be infinite.
 struct VariableBounds {
   std::string name;
   double lo, hi;
@@ -15,13 +15,14 @@ struct VariableBounds {
   bool is_finite() const { return std::isfinite(lo) && std::isfinite(hi); }
 };
 
-/// "x=0:1,y=-1:2,z=0:inf"; bounds may be constant expressions, "phi=-_pi:2*_pi", see parse_function. Throws Error that
-/// names --domain for anything else.
+/// Parses "x=0:1,y=-1:2,z=0:inf". A bound may be a constant expression, as in "phi=-_pi:2*_pi"; see parse_function.
+///   throws : Error that names --domain for anything else
 std::vector<VariableBounds> parse_bounds(const std::string& box);
 
-/// Where u in [0,1] lies on a side: x, increasing in u, and dx/du.
-///   finite : x = lo (1 - u) + hi u
-///   lo:inf : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi mirrored; -inf:inf : x = t / (1 - t^2), t = 2 u - 1
+/// The image of u in [0,1] within the bounds: x, which increases with u, and dx/du.
+///   finite   : x = lo (1 - u) + hi u
+///   lo:inf   : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi is mirrored
+///   -inf:inf : x = t / (1 - t^2), t = 2 u - 1
 struct MappedPoint {
   double x, slope;
 };

@@ -24,14 +24,14 @@ Quality quality_of(mc::PointList p, int rings) {
           rings > 0 ? mc::radial_power_spectrum(p, rings) : std::vector<double>()};
 }
 
-// What has no formula.
+// The measures that have no formula.
 struct ReferenceSetQuality {
   mc::StarDiscrepancy star;
   double distance = 0;
   std::optional<int> t;
 };
 
-// Of the random sets for reference, then the jittered ones.
+// Measures of a reference set: the random sets come first, then the jittered ones.
 ReferenceSetQuality reference_set_quality(std::uint64_t index, std::uint64_t n, std::size_t dim, std::uint64_t work) {
   const PointSet& set = point_set(index < reference_sets ? "random" : "stratified");
   const std::vector<double> x =
@@ -66,7 +66,7 @@ QualityRow measure_quality(const PointSets& sets, std::size_t dim, int threads, 
   const auto axes = static_cast<int>(dim);
   std::vector<Quality> all(sets.size());
   std::vector<ReferenceSetQuality> others(2 * reference_sets);
-  // The longest first.
+  // The longest task comes first.
   mc::parallel_for(1 + others.size() + sets.size(), threads, [&](std::size_t i) {
     if (i == 0) {
       row.star = mc::star_discrepancy({sets[0], dim}, work.set);

@@ -1,5 +1,5 @@
 #pragma once
-/// What carlo points tells of point sets, and what it would tell of random and jittered ones.
+/// Measures that carlo points reports for point sets, and their values for random and jittered sets.
 
 #include <mc/points/discrepancy.h>
 #include <mc/points/star_discrepancy.h>
@@ -13,41 +13,41 @@ namespace carlo {
 
 using PointSets = std::vector<std::vector<double>>;
 
-/// Sets whose means are drawn in where no formula gives the expectation: as many random and as many jittered ones. The
-/// star discrepancy, which is dear and varies little, is that of the first reference_stars of them.
+/// Number of random sets, and of jittered sets, for the reference means that no formula gives. The star discrepancy is
+/// expensive and varies little, so it uses only the first reference_stars of them.
 constexpr int reference_sets = 16, reference_stars = 8;
 
-/// What would be expected: by formulas of the L2 discrepancies (root mean squares) and the spectrum, else means over
-/// sets that have fixed seeds. No t where it is not known of each.
+/// Expected values: by formula for the L2 discrepancies (root mean squares) and the spectrum, otherwise means over sets
+/// with fixed seeds. t is empty if it is unknown for one of them.
 struct QualityReference {
   double l2_star = 0, l2_periodic = 0;
   mc::StarDiscrepancy star{0, 0}; ///< means of both bounds
-  double distance = 0;            ///< periodic
+  double distance = 0;            ///< mean periodic distance
   std::optional<double> t;
-  std::vector<double> power; ///< by ring; empty in one dimension
+  std::vector<double> power; ///< one value for each ring; empty in one dimension
 };
 
-/// One number of points: the first set in full, and means over all randomisations.
+/// Results for one number of points: the first set in full, and means over all randomisations.
 struct QualityRow {
   std::uint64_t n = 0;
   double first_l2_star = 0, first_l2_periodic = 0;
   mc::SmallestDistance first_distance{};
-  mc::StarDiscrepancy star;            ///< of the first set
-  std::optional<int> t;                ///< of the first set
+  mc::StarDiscrepancy star;            ///< star discrepancy of the first set
+  std::optional<int> t;                ///< t of the first set
   double l2_star = 0, l2_periodic = 0; ///< root mean squares
-  double distance = 0;                 ///< mean, periodic
-  std::vector<double> power;           ///< mean by ring
+  double distance = 0;                 ///< mean periodic distance
+  std::vector<double> power;           ///< mean for each ring
   QualityReference random, jittered;
 };
 
-/// Steps that may be spent on the star discrepancy of a set and of each of those for reference.
+/// Step limits for the star discrepancy of the first set and of each reference set.
 struct StarDiscrepancyBudget {
   std::uint64_t set, reference;
 };
 
 QualityRow measure_quality(const PointSets& sets, std::size_t dim, int threads, StarDiscrepancyBudget work);
 
-/// The mean power of the rings of frequencies up to sqrt(n) / 2: what the set lets through of smooth integrands.
+/// The mean power in the rings of frequencies up to sqrt(n) / 2, which determines the error for smooth integrands.
 double low_frequency_power(const std::vector<double>& power, std::uint64_t n);
 
 } // namespace carlo

@@ -56,7 +56,8 @@ const Column columns[] = {
     {"power_low_jittered", [](const QualityRow& r) -> Value { return low(r.jittered.power, r.n); }},
 };
 
-// A curve of a panel: a column, by its name, and how it looks. Those without a title are told by that of the same look.
+// A curve of a panel: the column by its name, and the look of the line. A curve without a title shares the legend entry
+// of the curve with the same look.
 struct PlotCurve {
   const char *column, *look, *title;
 };
@@ -77,7 +78,7 @@ std::vector<PlotCurve> three(const char* set, const char* random, const char* ji
   return {{set, this_look, "this set"}, {random, random_look, "random"}, {jittered, jittered_look, "jittered"}};
 }
 
-// Where it is not exact at every N there are two curves, and the legend says so.
+// If the discrepancy is not exact at every N, each set has two curves, and the legend names them bounds.
 std::string star_panel(const std::vector<QualityRow>& rows) {
   struct Set {
     mc::StarDiscrepancy (*star)(const QualityRow& row);
@@ -106,7 +107,7 @@ std::string star_panel(const std::vector<QualityRow>& rows) {
   return panel(curves.size() == 3 ? "star discrepancy" : "star discrepancy, lower and upper bounds", curves);
 }
 
-// Over frequencies in units of sqrt(N): one curve for each N, the more points the darker.
+// Power over frequency in units of sqrt(N). Each N has a curve, which is darker for more points.
 std::string spectra(const std::vector<QualityRow>& rows) {
   std::string s = "set xlabel \"frequency / sqrt(N)\"\nset ylabel \"power, x and y, darker with N\"\nplot ";
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -152,7 +153,7 @@ std::string spectrum_csv(const std::vector<QualityRow>& rows) {
   return text;
 }
 
-// Without a distance above 0 that of the distance has no logarithmic axis, on which gnuplot would find nothing to draw.
+// If no distance exceeds 0, the distance panel has a linear axis: gnuplot cannot draw it on a logarithmic one.
 std::string quality_script(const std::string& title, const std::vector<QualityRow>& rows) {
   std::string s = plot_header("quality", 1500, 800);
   s += fmt::format(

@@ -1,5 +1,5 @@
 #pragma once
-/// The files that carlo points writes of what it measured.
+/// The files that carlo points writes.
 
 #include <quality/measure.h>
 
@@ -9,13 +9,13 @@
 
 namespace carlo {
 
-/// quality.csv: a line for each row. What is not known is left empty.
+/// quality.csv: a line for each row. Unknown values are empty.
 std::string quality_csv(const std::vector<QualityRow>& rows);
 
-/// spectrum.csv: a line for each row and ring; its header alone in one dimension.
+/// spectrum.csv: a line for each row and ring; only the header in one dimension.
 std::string spectrum_csv(const std::vector<QualityRow>& rows);
 
-/// The script that draws both over N; the title stands on top.
+/// The gnuplot script that draws both files over N, with the title at the top.
 std::string quality_script(const std::string& title, const std::vector<QualityRow>& rows);
 
 nlohmann::json to_json(const QualityRow& row);

@@ -19,7 +19,7 @@ namespace carlo {
 
 namespace {
 
-// Points first, first + 1, ... of the sampler, as many as there is room for.
+// Fills `points` with points first, first + 1, ... of the sampler.
 template <mc::Real S, mc::Sampler T>
 void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> points) {
   for (std::size_t i = 0; i < points.size() / dim; ++i)
@@ -39,7 +39,7 @@ template <mc::Real S, class Make> PointSet::Mean mean_of(Make make) {
   };
 }
 
-// The points of a sampler made for (count, dim, seed).
+// The row of a sampler that make(count, dim, seed) constructs.
 template <class Make> PointSet row(std::string name, std::string title, Make make) {
   PointSet set{std::move(name), std::move(title), {}, {}, {}};
   set.make = [make](std::uint32_t count, std::uint32_t dim, std::uint64_t seed) {

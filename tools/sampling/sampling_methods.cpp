@@ -43,7 +43,7 @@ MethodEstimate integrate_with(const UnitCubeIntegral& e, mc::Method method, std:
   return {r.estimate.value, static_cast<double>(r.calls)};
 }
 
-// By the points of a file, all moved by a random vector.
+// The mean over the points of a file, all shifted modulo 1 by a random vector.
 double mean_of_shifted(const CsvTable& points, const UnitCubeIntegral& e, std::uint64_t n, std::uint64_t seed) {
   const auto dim = static_cast<std::size_t>(e.dim);
   return mean_over(e, n, [&](std::uint64_t first, std::span<double> u) {

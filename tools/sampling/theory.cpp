@@ -13,7 +13,7 @@ namespace {
 
 using Class = Smoothness::Class;
 
-// Of d dimensions and, for a corner, the exponent a of its singularity.
+// Arguments: the dimension d and, for a corner, the exponent a of its singularity.
 using RateLaw = ConvergenceRate (*)(double d, double a);
 
 struct RateRow {
@@ -21,7 +21,7 @@ struct RateRow {
   RateLaw law;
 };
 
-// Surfaces that the cells of a stratification only enclose.
+// Exponents for surfaces that the cells of a stratification only enclose.
 double jump(double d) { return 0.5 + 0.5 / d; }
 double kink(double d) { return 0.5 + 1.5 / d; }
 
@@ -29,7 +29,8 @@ ConvergenceRate random_law(double, double) { return {0.5, 0, "variance sigma^2 /
 
 ConvergenceRate jittered(double d, double) { return {0.5 + 1 / d, 0, "[Haber66]; [MitchellA96]"}; }
 ConvergenceRate jittered_jump(double d, double) { return {jump(d), 0, "[MitchellA96]"}; }
-// Down to a = -1/2, where all cells count alike, by a root of a logarithm: below, x^-a is as good as smooth.
+// The cells at the singularity dominate for a > -1/2. At a = -1/2 all cells contribute equally and add the root of a
+// logarithm. Below, x^-a behaves like a smooth function.
 ConvergenceRate jittered_corner(double d, double a) {
   return {0.5 + std::min(1.0, 0.5 - a) / d, 0, "cells at the singular faces",
           a == -0.5 ? RateBound::at_most : RateBound::exact};
@@ -43,7 +44,7 @@ ConvergenceRate net_additive(double, double) { return {1.5, 0, owen}; }
 ConvergenceRate net_kink(double d, double) { return {std::min(1.5, kink(d)), 0, surface}; }
 ConvergenceRate net_axis_jump(double d, double) { return {1, (d - 1) / 2, discontinuous}; }
 ConvergenceRate net_jump(double d, double) { return {jump(d), 0, discontinuous}; }
-// Logarithms of the parts of many variables, which are small beside those of one.
+// Logarithms come from terms in several variables, which are small compared with terms in one variable.
 ConvergenceRate net_corner(double d, double a) {
   return {std::min(1.5, 1 - a), 0, unbounded, d > 1 || a == -0.5 ? RateBound::at_most : RateBound::exact};
 }
@@ -54,8 +55,8 @@ ConvergenceRate first_order_corner(double, double a) {
   return {std::min(1.0, 1 - a), 0, unbounded, RateBound::at_most};
 }
 ConvergenceRate lattice_periodic(double, double) { return {1, 0, "[Niederreiter92] chapter 5", RateBound::at_least}; }
-// Bends where the faces meet: the coefficients of frequency k fall as k^-2, and of a sum of functions of one coordinate
-// each a lattice of N points meets every N-th.
+// Kinks where the faces meet make the Fourier coefficients of frequency k fall as k^-2. For a sum of functions of one
+// coordinate each, the error of a lattice of N points consists of every N-th coefficient.
 ConvergenceRate lattice_closed(double, double) { return {2, 0, "Fourier coefficients k^-2", RateBound::at_most}; }
 ConvergenceRate lattice_closed_additive(double, double) { return {2, 0, "Fourier coefficients k^-2"}; }
 ConvergenceRate halton_smooth(double, double) { return {1, 0, "[OwenPan23]", RateBound::at_most}; }
@@ -63,7 +64,7 @@ ConvergenceRate halton_smooth(double, double) { return {1, 0, "[OwenPan23]", Rat
 ConvergenceRate latin_law(double, double) { return {0.5, 0, "[Stein87]; [Owen98]"}; }
 ConvergenceRate latin_additive(double, double) { return {1.5, 0, "[Stein87]; [Owen98]"}; }
 
-// An error of N^-3/4 on top of what is jittered. Of an integrand with an end at infinity x = 1/n stands for it.
+// An error of N^-3/4 in addition to the jittered error. For an integrand with a singular end, x = 1/n replaces the end.
 constexpr std::string_view correlated = "[Kensler13]: one of n strata of an axis moves at once";
 ConvergenceRate correlated_smooth(double, double) { return {0.75, 0, correlated}; }
 ConvergenceRate correlated_corner(double, double a) { return {0.75 - a / 2, 0, correlated}; }
@@ -125,16 +126,16 @@ constexpr std::array learned_rows = {RateRow{Class::smooth, learned},    RateRow
                                      RateRow{Class::axis_kink, learned}, RateRow{Class::axis_jump, learned},
                                      RateRow{Class::jump, learned},      RateRow{Class::corner, learned}};
 
-// The rows that hold for a sampler in d dimensions. Sets of fewer dimensions that are shuffled against each other see
-// what is not additive over them as Latin hypercubes do [Owen98].
+// The rows that hold for a sampler in d dimensions. Padded sets of fewer dimensions integrate the part that is not
+// additive over the sets as a Latin hypercube does [Owen98].
 std::span<const RateRow> rows_of(std::string_view method, int d, bool matching_faces) {
   if (method == "random") return random_rows;
   if (method == "stratified") return jittered_rows;
-  // Its rounds are shares of N that tend to constants; grids of eight dimensions at most.
+  // The sizes of its rounds tend to constant shares of N. Its grids have at most eight dimensions.
   if (method == "stratified_rounds" && d <= 8) return jittered_rows;
   if (method == "sobol") return net_rows;
   if (method == "halton")
-    return d == 1 ? std::span<const RateRow>(net_rows) : halton_rows; // base two is a net of base two
+    return d == 1 ? std::span<const RateRow>(net_rows) : halton_rows; // base two is a net in base two
   if (method == "lattice") return matching_faces ? std::span<const RateRow>(closed_lattice_rows) : lattice_rows;
   if (method == "latin_hypercube") return d == 1 ? std::span<const RateRow>(jittered_rows) : latin_rows;
   if (method == "padded_sobol") return d <= 2 ? std::span<const RateRow>(net_rows) : latin_rows;
