@@ -1,5 +1,5 @@
 #pragma once
-/// Cases of BSDFs.
+/// Adds cases of BSDFs.
 
 #include <catalogue/catalogue.h>
 
@@ -13,7 +13,7 @@
 
 namespace carlo {
 
-/// One case per angle of incidence [degrees], beyond 90 from the inside.
+/// Adds one case for each angle of incidence [degrees]; angles beyond 90 are inside.
 template <class Bsdf>
 void add_bsdf(Catalogue& c, const std::string& name, const std::string& parameters, const Bsdf& bsdf,
               const std::vector<double>& angles = {0, 60, 85, 89.9}, const mc::BsdfOptions& bounds = {}) {
@@ -35,7 +35,7 @@ void add_bsdf(Catalogue& c, const std::string& name, const std::string& paramete
   }
 }
 
-/// One case per angle of incidence: family(roughness) is continuous and tends to family(0).
+/// Adds one case for each angle of incidence: family(roughness) must be continuous and tend to family(0).
 template <class Family>
 void add_roughness_limit(Catalogue& c, const std::string& name, const std::string& parameters, const Family& family,
                          const std::vector<double>& angles) {

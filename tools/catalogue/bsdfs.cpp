@@ -9,7 +9,7 @@ void add_bsdfs(Catalogue& c) {
   const std::vector<render::Spectrum> texels = {{1, 0, 0.5f}, {0, 1, 0.5f}, {0.2f, 0.4f, 0.5f}, {1, 1, 0.5f}};
   const render::TexturedLambert picture(render::Bitmap(std::make_shared<const render::Texels>(2, 2, texels)));
   add_bsdf(c, "TexturedLambert", "between four texels", picture.at({0.3, 0.6}), {0, 60, 120});
-  // The book's fuzzy metal is not reciprocal, by its definition.
+  // The book's fuzzy metal is not reciprocal by definition.
   add_bsdf(c, "Metal", "fuzz=0", render::FuzzyMetal{}, {0, 60, 89.9, 120}, {.reciprocal = false});
   add_bsdf(c, "Metal", "fuzz=0.1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
            {.reciprocal = false, .mass_tolerance = 1e-4});

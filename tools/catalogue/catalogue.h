@@ -1,14 +1,14 @@
 #pragma once
-/// Every distribution of libmc and librender with the parameters at which it is checked.
+/// Every distribution of libmc and librender with the parameters for which it is checked.
 ///
-/// A family adds its distributions in a file of its own, one line per case:
+/// A family adds its distributions in its own file, one line for each case:
 ///   void add_spheres(Catalogue& c) {
 ///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; });
 ///   }
-/// then declares that function below, calls it in catalogue.cpp, names the file in CMakeLists.txt, and adds a sentence
-/// to descriptions.cpp. add_warp of warp_case.h makes a float and a double case of the line, add_bsdf of bsdf_case.h
-/// one case per direction. The test catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the
-/// headers is not in the list, or has no description.
+/// To add a family, declare this function below, call it in catalogue.cpp, name the file in CMakeLists.txt, and add a
+/// sentence to descriptions.cpp. add_warp of warp_case.h adds a float and a double case for the line, add_bsdf of
+/// bsdf_case.h one case for each direction. The test catalogue_test.cpp fails if a warp, table, BSDF, shape, filter or
+/// camera of the headers is missing from the list or has no description.
 
 #include <mc/check/check_subject.h>
 
@@ -26,7 +26,7 @@ struct Case {
   std::string parameters; ///< "alpha=0.1, theta=60"; empty without any
   std::string scalar;     ///< "float" or "double"
   std::function<mc::Report(const CaseOptions&)> check;
-  std::string rerun_arguments = {}; ///< what follows "carlo validate" to check it alone; empty: its name
+  std::string rerun_arguments = {}; ///< arguments of "carlo validate" that select this case; empty: its name
 
   /// "Linear(a=0, b=1)".
   std::string label() const { return name + (parameters.empty() ? "" : "(" + parameters + ")"); }

@@ -90,7 +90,7 @@ constexpr auto descriptions = std::to_array<Description>({
     {"ThinLens", "Camera rays: points of the lens, and directions through the film"},
 });
 
-// Consecutive cases of one name.
+// Cases grouped by name, in the order of first appearance.
 std::vector<std::vector<const Case*>> by_distribution(const std::vector<const Case*>& cases) {
   std::vector<std::vector<const Case*>> groups;
   for (const Case* c : cases) {
@@ -129,7 +129,7 @@ std::string cases_text(const std::vector<const Case*>& cases, std::size_t column
   for (const auto& group : by_distribution(cases)) {
     const std::string_view description = description_of(group[0]->name);
     if (!description.empty()) text += wrapped(fmt::format("{}: {}.", group[0]->name, description), columns);
-    std::vector<std::pair<std::string, std::string>> rows; // case, scalars
+    std::vector<std::pair<std::string, std::string>> rows; // case and scalars
     for (const Case* c : group) {
       if (!rows.empty() && rows.back().first == c->label()) rows.back().second += ", " + c->scalar;
       else rows.emplace_back(c->label(), c->scalar);

@@ -8,7 +8,7 @@ namespace carlo {
 
 namespace {
 
-// A corner and two edges of length about `edge`.
+// A patch given by a corner and two edges of length about `edge`.
 template <template <class> class W, class S> W<S> patch(double edge) {
   return W<S>(mc::Vec3<S>(S(0.3), S(-0.2), S(0.9)), mc::Vec3<S>(S(edge), S(0.1 * edge), S(-0.2 * edge)),
               mc::Vec3<S>(S(0.3 * edge), S(edge), S(0.05 * edge)));

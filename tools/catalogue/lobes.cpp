@@ -16,7 +16,7 @@ template <class S> mc::Vec3<S> direction(double degrees) {
   return mc::spherical_direction<S>(S(std::sin(theta)), S(std::cos(theta)), S(0.7));
 }
 
-// The inverse is less precise where the half vector is short: by 16 eps / (alpha |half vector|).
+// The inverse is less precise for short half vectors: its error is 16 eps / (alpha |half vector|).
 void add_half_vectors(Catalogue& c) {
   for (const auto& [alpha, degrees] : {std::pair{1e-4, 0.0}, {0.1, 60.0}, {1.0, 89.9}})
     add_warp(c, "Reflected", fmt::format("visible normals alpha={:g}, {:g} degrees", alpha, degrees),
@@ -50,7 +50,7 @@ void add_half_vectors(Catalogue& c) {
 
 } // namespace
 
-// Bounds that depend on a parameter are the bounds of the warp's contract.
+// Bounds that depend on a parameter come from the contract of the warp.
 void add_lobes(Catalogue& c) {
   for (const double n : {0.0, 1.0, 100.0, 1e7})
     add_warp(c, "BlinnPhong", fmt::format("n={:g}", n),

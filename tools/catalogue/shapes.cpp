@@ -1,5 +1,5 @@
-// Distributions of librender in its Float: points and directions of shapes and lights from a reference point, the choice
-// of a light, masks, offsets of filters, points of the lens, rays through the film.
+// Distributions of librender in its Float: points and directions on shapes and lights from a reference point, light
+// selection, masks, filter offsets, lens points, and rays through the film.
 #include <catalogue/catalogue.h>
 
 #include <render/scene/builder.h>
@@ -20,7 +20,7 @@ using Number = std::function<double(const Vec2& u)>;
 
 constexpr Float eps = std::numeric_limits<Float>::epsilon(), nan = std::numeric_limits<Float>::quiet_NaN();
 
-// A distribution that is no warp; `number` draws one sample for timing.
+// Adds a distribution that is not a warp; `number` draws one sample for timing.
 void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject,
                  const Number& number, double mass_tolerance = 64 * double(eps)) {
   Case one{name, parameters, sizeof(Float) == 4 ? "float" : "double", {}};
@@ -44,8 +44,8 @@ Number time_of(const Shape& shape, const Vec3& ref) {
   };
 }
 
-// The directions from ref to a shape, against the density of a direction. `domain` holds them all. One on the outline
-// may round out of the shape by 4 eps; it is moved back towards the middle.
+// Adds the directions from ref to a shape, checked against the density of a direction. `domain` contains all of them. A
+// direction on the outline may round out of the shape by 4 eps; it is moved back towards `middle`.
 template <class D>
 void add_directions(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
                     const Vec3& ref, const D& domain, const Vec3& middle) {
@@ -60,10 +60,12 @@ void add_directions(Catalogue& c, const std::string& name, const std::string& pa
   add_subject(c, name, parameters + ", directions", make_subject("", domain, sample, pdf), time_of(shape, ref));
 }
 
-// The points that a shape's sampler finds from ref, against the density of the direction to a point, per area of the
-// domain.
-//   domain : holds the images of all points;  image : SurfacePoint -> its point;  surface : that point -> SurfacePoint
-//   scale  : area of the shape per area of the domain
+// Adds the points that a shape samples from ref, checked against the density of the direction to a point, converted to
+// area of the domain.
+//   domain  : contains the images of all points
+//   image   : maps a SurfacePoint to its point of the domain
+//   surface : maps a point of the domain to the SurfacePoint
+//   scale   : area of the shape per area of the domain
 template <class D, class Image, class Surface>
 void add_points(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
                 const Vec3& ref, const D& domain, const Image& image, const Surface& surface, double scale,
@@ -72,7 +74,7 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
     Vec3 x;
     Float weight, pdf;
   };
-  // Density per area. The weight of f = 1 contains the density that the shape's sample states.
+  // Density per area. The weight for f = 1 uses the density that the shape's sample states.
   const auto per_area = [=](const SurfacePoint& p, Float pdf) {
     const Vec3d between = (p.p - ref).template cast<double>();
     return Float(double(pdf) * std::abs(p.ng.template cast<double>().dot(between.normalized())) /
@@ -95,7 +97,7 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
 
 mc::Cap<Float> cap_of(double one_minus_cos) { return mc::Cap<Float>(Float(one_minus_cos)); }
 
-// The points of a sphere about `at`, or of its cap; their directions from `at` lie in `domain`.
+// Adds the points of a sphere about `at`, or of a cap of it; their directions from `at` lie in `domain`.
 template <class D>
 void add_sphere(Catalogue& c, const std::string& where, const Vec3d& at, const Sphere& sphere, const Vec3& ref,
                 const D& domain, double tolerance = 1e-3) {
@@ -119,7 +121,7 @@ void add_spheres_seen(Catalogue& c) {
   }
   const Sphere sphere(at, 2, true);
   add_sphere(c, "from inside", at, sphere, center + Vec3(Float(0.5), 1, Float(-1.25)), mc::Sphere<Float>{});
-  // Points next to ref have few digits of their distance.
+  // The distance of points next to ref has few correct digits.
   add_sphere(c, "from its surface", at, sphere, center + 2 * Vec3(Float(0.48), Float(0.6), Float(-0.64)),
              mc::Sphere<Float>{}, 0.1);
   const Vec3d axis(-1, 2, 2);
@@ -127,7 +129,7 @@ void add_spheres_seen(Catalogue& c) {
   add_sphere(c, "cap of height 0.5", at, Sphere::cap(at, 2, axis, 0.5), center + Vec3(-2, 5, 4), around);
 }
 
-// A parallelogram cut into strips of growing width, each of two triangles.
+// A parallelogram cut into strips of growing width, two triangles for each strip.
 struct StripMesh {
   Vec3 corner{-1, Float(-0.5), 2}, e1{2, 0, Float(0.5)}, e2{Float(0.25), 1, 0};
   std::uint32_t count;
@@ -148,7 +150,7 @@ struct StripMesh {
     return {positions, triangles};
   }
 
-  // The point of their mesh that has these coordinates in the parallelogram.
+  // The point of the mesh with these coordinates in the parallelogram.
   SurfacePoint point(const TriangleMesh& mesh, const Vec2& v) const {
     const auto strip = std::min(static_cast<std::uint32_t>(std::sqrt(v[0]) * Float(count)), count - 1);
     const Float s = (v[0] - cut(strip)) / (cut(strip + 1) - cut(strip)), t = v[1];
@@ -178,9 +180,9 @@ void add_meshes_seen(Catalogue& c) {
     add_strips_directions(c, where, afar, {.count = count});
     add_strips_points(c, where, afar, {.count = count});
   }
-  // Points are not checked: their density jumps at the diagonal, where a point belongs to both triangles.
+  // Points are not checked: their density jumps at the diagonal, which belongs to both triangles.
   add_strips_directions(c, "2 triangles it nearly touches", {Float(0.25), Float(0.125), Float(2.25)}, {.count = 1});
-  // Two triangles that coincide in direction: rays hit both.
+  // Two triangles that cover the same directions: rays hit both.
   const Vec3 a(Float(0.5), -1, 2), b(1, 1, Float(0.5)), e(-1, Float(0.5), Float(0.25));
   const mc::Patch<Float, 3> directions(a, b, e);
   add_directions(c, "TriangleMesh", "one triangle behind another",
@@ -188,7 +190,7 @@ void add_meshes_seen(Catalogue& c) {
                  directions, directions.from_unit({Float(0.5), Float(0.5)}));
 }
 
-// The choice of a light at a point.
+// Light selection at a point.
 struct LightsSeen {
   using Scalar = Float;
   std::shared_ptr<const Scene> scene;
@@ -215,7 +217,7 @@ void add_choices(Catalogue& c) {
   for (const bool with_sun : {false, true}) {
     SceneBuilder points;
     points.add(Sphere(Vec3d::Zero(), 0.1), {points.add(Lambert())});
-    for (const double distance : {0.0, 1e-3, 1.0, 10.0}) // from where it is lit
+    for (const double distance : {0.0, 1e-3, 1.0, 10.0}) // distance from the reference point
       points.add(Light(PointLight(Vec3d(1, 2, 3 + distance), Spectrum::Ones())));
     if (with_sun) points.add(Light(DirectionalLight(Vec3d(0, -1, 0), Spectrum::Constant(Float(1e6)))));
     if (with_sun) add_choice(c, "DirectionalLight", "chosen beside points", std::move(points));
@@ -223,11 +225,11 @@ void add_choices(Catalogue& c) {
   }
 }
 
-// The surface at which a ray ends: the first of two is masked by a picture.
+// The surface at which a ray ends; the first of two surfaces has a textured mask.
 struct MetBehindMask {
   using Scalar = Float;
   std::shared_ptr<const Scene> scene;
-  Float opacity; ///< at the ray's hit
+  Float opacity; ///< at the hit point of the ray
 
   mc::DiscreteSample<Float> sample_index(Float u) const {
     Ray ray{Vec3(0, Float(0.5), -2), Vec3::UnitZ()};
@@ -256,7 +258,7 @@ void add_mask(Catalogue& c) {
               [=](const Vec2& u) { return double(met.sample_index(u[0]).pmf); });
 }
 
-// The directions towards a light that is infinitely far away.
+// Adds the directions towards an infinitely distant light.
 template <class L> void add_background(Catalogue& c, const std::string& name, const std::string& what, const L& light) {
   const auto sample = [=](const Vec2& u) { return light.sample(Vec3::Zero(), u)->wi; };
   const auto pdf = [=](const Vec3& wi) { return light.pdf(Vec3::Zero(), wi, nullptr); };
@@ -304,7 +306,7 @@ void add_camera(Catalogue& c) {
               [=](const Vec2& u) { return double(sample(u).sum()); });
 }
 
-// The rays through the points of a film, against the density that paths from the lights count on.
+// Adds the rays through the points of a film, checked against the density that light paths use for them.
 void add_pinholes(Catalogue& c) {
   for (const double fov : {10.0, 90.0, 150.0}) {
     const ThinLens lens(Transform::look_at({1, 2, 3}, Vec3d::Zero(), Vec3d::UnitY()), {.fov = fov});

@@ -9,7 +9,7 @@
 namespace carlo {
 namespace {
 
-// Weights that jump and vanish, as in real tables.
+// Weights with jumps and zeros, as in real tables.
 std::vector<double> jagged(std::size_t n) {
   std::vector<double> w(n);
   for (std::size_t i = 0; i < n; ++i) w[i] = i % 7 == 3 ? 0.0 : 1 + static_cast<double>((i * 37) % 11);
@@ -18,7 +18,7 @@ std::vector<double> jagged(std::size_t n) {
 
 constexpr auto square = [](auto x) { return x * x; };
 
-// A sky of width x height with a sun of 3 x 3 pixels that holds half of the light.
+// A sky of width x height pixels with a sun of 3 x 3 pixels that holds half of the light.
 std::vector<double> sky(std::size_t width, std::size_t height) {
   std::vector<double> w(width * height);
   double sum = 0;
@@ -37,7 +37,7 @@ std::vector<double> extreme(std::size_t n) {
   return w;
 }
 
-// It follows no axis, and a part is empty.
+// A ridge that is parallel to no axis, with an empty region.
 template <int N> double ridge(const mc::Vec<double, N>& x) {
   const double off = (x.array() - x.mean()).matrix().norm();
   return off < 0.45 ? std::exp(-8 * off) : 0.0;
@@ -48,7 +48,7 @@ template <int N> void add_tree(Catalogue& c, std::size_t leaves) {
            [leaves](auto s) { return mc::TableDistTree<decltype(s), N>::from_function(ridge<N>, leaves); });
 }
 
-// make() gives the table.
+// make() returns the table.
 template <class Make>
 void add_discrete(Catalogue& c, const std::string& name, const std::string& parameters, const std::string& scalar,
                   Make make) {
@@ -59,7 +59,7 @@ void add_discrete(Catalogue& c, const std::string& name, const std::string& para
   c.push_back(std::move(one));
 }
 
-// The table make(S{}) over float and double.
+// Adds the table make(S{}) over float and double.
 template <class Make>
 void add_outcomes(Catalogue& c, const std::string& name, const std::string& parameters, Make make) {
   add_discrete(c, name, parameters, "float", [make] { return make(0.0f); });

@@ -1,5 +1,5 @@
 #pragma once
-/// Cases of warps.
+/// Adds cases of warps.
 
 #include <catalogue/catalogue.h>
 
@@ -7,11 +7,13 @@
 
 namespace carlo {
 
-/// A sampler over one scalar with the bounds of its contract. make(its title) makes it when it is checked.
+/// Adds a distribution over one scalar with the error bounds of its contract. make(title) creates it when it is
+/// checked.
 void add_case(Catalogue& c, std::string name, std::string parameters, std::string scalar,
               std::function<mc::AnyDistribution(std::string)> make, mc::LawOptions bounds);
 
-/// The warp make(S{}) over float and double, with the bounds of its contract. It is made when it is checked.
+/// Adds the warp make(S{}) over float and double, with the error bounds of its contract. The warp is created when it is
+/// checked.
 template <class Make>
 void add_warp(Catalogue& c, const std::string& name, const std::string& parameters, Make make,
               const mc::LawOptions& bounds = {}) {

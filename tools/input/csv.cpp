@@ -25,12 +25,12 @@ bool skip(std::string_view& text, char c) {
   return true;
 }
 
-// A number, and what 10 is raised to in its last digit.
+// A number and the exponent of 10 of its last digit.
 struct Number {
   double value = 0;
   int digit = 0;
-  int significant = 0; // digits, from the first that is not 0
-  bool whole = false;  // the word is a number and nothing else
+  int significant = 0; // number of digits from the first nonzero digit
+  bool whole = false;  // the whole word is a number
   bool finite = false;
 };
 
@@ -63,7 +63,7 @@ Number parse(std::string_view word) {
 
 constexpr const char* unclosed = "a quotation mark without its other";
 
-// One field off the front, without its quotation marks and the blanks inside them.
+// Removes the first field and returns it without its quotation marks and the blanks inside them.
 std::string_view take_word(std::string_view& text) {
   const bool quoted = skip(text, '"');
   const std::string_view word = text.substr(0, text.find_first_of(quoted ? "\"" : ends));
@@ -72,7 +72,7 @@ std::string_view take_word(std::string_view& text) {
   return quoted ? mc::trimmed(word) : word;
 }
 
-// 0,5 for 0.5. Outside of quotation marks these are two numbers.
+// For example 0,5 for 0.5. Without quotation marks it would be two numbers.
 bool has_decimal_comma(std::string_view word) {
   const std::size_t comma = word.find(',');
   if (comma == std::string_view::npos) return false;
@@ -91,20 +91,20 @@ Number take_number(std::string_view& text) {
   return n;
 }
 
-// A letter or _; of UTF-8 what begins a Latin, Greek or Cyrillic letter, and not a space or a minus sign.
+// A letter or _. In UTF-8, the first byte of a Latin, Greek or Cyrillic letter, but not of a space or a minus sign.
 bool begins_name(std::string_view word) {
   if (word.empty()) return false;
   const auto c = static_cast<unsigned char>(word[0]);
   return std::isalpha(c) || c == '_' || (c >= 0xc3 && c <= 0xd4);
 }
 
-// The names of columns; nan and inf are numbers, though not of ours.
+// Column names. The words nan and inf are numbers, which are rejected later.
 bool is_header(std::string_view text) {
   const std::string_view word = take_word(text);
   return begins_name(word) && !parse(word).whole;
 }
 
-// Up to a # that stands in no quotation marks.
+// The text before the first # outside of quotation marks.
 std::string_view without_comment(std::string_view text) {
   if (text.find('#') == std::string_view::npos) return text;
   bool quoted = false;
@@ -115,13 +115,13 @@ std::string_view without_comment(std::string_view text) {
   return text;
 }
 
-// How a column is printed: with so many digits behind the point, or with so many significant ones.
+// The print format of a column: largest number of decimals and of significant digits.
 struct Precision {
   int decimals = -1000, significant = 0;
 };
 
-// Programs leave out zeros at the end: 1.5 among 0.123456 is 1.50000, and 12.5 among 12.345 is 12.500. A digit stands
-// for no more than that, as far as the rest of its column tells.
+// Programs omit trailing zeros: 1.5 among 0.123456 is 1.50000, and 12.5 among 12.345 is 12.500. The last digit of each
+// value is refined to the precision of its column.
 void refine_digits(CsvTable& table, const std::vector<Precision>& columns) {
   table.digits_below = table.digits;
   for (std::size_t i = 0; i < table.values.size(); ++i) {
@@ -159,7 +159,7 @@ void parse_row(std::string_view text, CsvTable& table, std::vector<Precision>& c
   }
 }
 
-// What no editor or spreadsheet writes into a table: an image, an archive, UTF-16.
+// Bytes that no editor or spreadsheet writes into a table indicate an image, an archive or UTF-16.
 void require_text(const std::string& file, const std::string& bytes) {
   const auto control = [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f'; };
   const auto bad = std::find_if(bytes.begin(), bytes.end(), control);
@@ -177,7 +177,7 @@ CsvTable read_csv(const std::string& file) {
   std::vector<Precision> columns;
   std::uint32_t line = 0;
   bool first = true;
-  const char line_end = bytes.find('\n') == std::string::npos ? '\r' : '\n'; // as old spreadsheets end lines
+  const char line_end = bytes.find('\n') == std::string::npos ? '\r' : '\n'; // line ends of old spreadsheets
   for (std::string_view rest = bytes; !rest.empty();) {
     std::string_view text = rest.substr(0, rest.find(line_end));
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));

@@ -11,21 +11,25 @@ namespace carlo {
 struct CsvTable {
   std::size_t columns = 0;
   std::vector<double> values;       ///< row by row
-  std::vector<std::int16_t> digits; ///< of each value: its last digit, with zeros left out, stands for 10^this
-  /// The same a little nearer to 0: one less below a power of 10 where it is significant digits that are printed.
+  std::vector<std::int16_t> digits; ///< for each value: the exponent of 10 of its last digit, including zeros that were
+                                    ///< omitted at the end
+  /// The same exponent for numbers slightly closer to 0. It is smaller by one if the value is a power of 10 and the
+  /// column
+  /// has a fixed number of significant digits.
   std::vector<std::int16_t> digits_below;
-  std::vector<std::uint32_t> lines; ///< of the file, from 1, that each row stands in
+  std::vector<std::uint32_t> lines; ///< for each row: its line in the file, from 1
 
   std::size_t rows() const { return lines.size(); }
   const double* row(std::size_t i) const { return values.data() + i * columns; }
 };
 
-/// Numbers separated by commas or semicolons, or by blanks, in quotation marks or not. Left out are empty lines, what
-/// follows a # to the end of the line, a comma at the end of a row, and a first line whose first field, in quotation
-/// marks or not, begins with a letter or _ and is no number: the names of the columns.
-///   throws : Error "file:line: ..." for what is no finite number, a decimal comma, commas beside semicolons, an empty
-///            field, a quotation mark without its other or a row of another length; "file: ..." for a file that is
-///            missing, is no text or holds no numbers
+/// Reads numbers separated by commas, semicolons or blanks, with or without quotation marks. It skips empty lines,
+/// comments from # to the end of the line, and a comma at the end of a row. It skips a first line of column names: its
+/// first field begins with a letter or _ and is no number.
+///   throws : Error "file:line: ..." for anything but a finite number, a decimal comma, commas mixed with semicolons,
+///   an
+///            empty field, an unclosed quotation mark, or a row of another length. Error "file: ..." for a file that is
+///            missing, is not text, or contains no numbers.
 CsvTable read_csv(const std::string& file);
 
 } // namespace carlo

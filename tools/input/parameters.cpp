@@ -14,7 +14,7 @@ namespace {
 
 constexpr double most_sets = 10000;
 
-// A part of a text, for errors about it.
+// A part of an option's text, for error messages.
 struct Part {
   std::string_view option, part, text;
 };

@@ -34,7 +34,7 @@ double norm(const PointArray& x, int n) {
   return std::sqrt(sum);
 }
 
-// A domain of libmc over double as a part; printed points are in it where `near` says so.
+// A domain of libmc over double as a part. For printed points, `near` decides whether they are inside.
 template <mc::Domain D>
 Part part(std::string text, std::vector<std::string> columns, const D& d, Rounding rounding, Contains near) {
   const mc::AnyDistribution on = rounding == Rounding::floats
@@ -51,7 +51,7 @@ Part part(std::string text, std::vector<std::string> columns, const D& d, Roundi
   return p;
 }
 
-// Printed directions are brought to length 1 first.
+// Printed directions are first normalised.
 template <mc::Domain D> Part directions(std::string text, const D& d, Rounding rounding, Contains near) {
   Part p = part(std::move(text), {"x", "y", "z"}, d, rounding, std::move(near));
   if (rounding != Rounding::printed) return p;
@@ -137,7 +137,7 @@ Part discrete(int outcomes) {
   return p;
 }
 
-// The numbers [first, first + count) of a longer array, the first of another.
+// Copies the elements [first, first + count) to the start of another array.
 template <std::size_t N> std::array<double, N> slice(const std::array<double, N>& x, std::size_t first, int count) {
   std::array<double, N> part{};
   std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(first), count, part.begin());
@@ -199,7 +199,7 @@ std::array<double, 3> quartiles_of(std::vector<double> column) {
 
 namespace {
 
-// The chart coordinate where a monotone axis reads x.
+// The chart coordinate at which a monotone axis has the value x.
 double place_on(const mc::Axis& axis, double x) {
   const double at_0 = axis.value(0), at_1 = axis.value(1);
   mc::require(std::isfinite(x) && x >= std::min(at_0, at_1) && x <= std::max(at_0, at_1),

@@ -1,5 +1,5 @@
 #pragma once
-/// The rows of a file as the draws of streams.
+/// Assigns the rows of a file to sample streams.
 
 #include <mc/core/error.h>
 #include <mc/random/permute.h>
@@ -9,7 +9,7 @@
 
 namespace carlo {
 
-/// Deals the rows in an order that the seed chooses, each once: a stream that is new gets the next of them.
+/// Deals the rows in a random order given by the seed, each once. A new stream receives the next rows.
 class RowShuffler {
  public:
   RowShuffler(std::uint32_t rows, std::uint64_t seed) : rows_(rows), seed_(seed) {}

@@ -23,20 +23,20 @@ namespace {
 using mc::Subject;
 using Density = std::function<double(std::span<const double>)>;
 
-// Everything that the subject's functions share.
+// Data shared by the subject's functions.
 struct Samples {
   std::string file;
   CsvTable table;
   ParsedDomain domain;
-  ParsedDomain strict; ///< without the room that domain leaves to what is rounded
+  ParsedDomain strict; ///< the domain without tolerance for rounding
   Density density;
   double mass_tolerance = 1e-12;
   Breaks breaks = {};
 
   std::size_t columns() const { return table.columns; }
 
-  // The row with each number moved within its last digit, to where the domain is: what is printed at its edge lies on
-  // this side of it. The row itself where many attempts do not meet the domain.
+  // The row, with each number moved within its last digit so that the point lies in the domain. A number printed at an
+  // edge came from the inside. Returns the row itself if no attempt hits the domain.
   std::vector<double> point(std::uint32_t row, std::uint64_t seed) const {
     std::vector<double> x(table.row(row), table.row(row) + columns());
     if (domain.outcomes > 0) return x;
@@ -48,7 +48,7 @@ struct Samples {
       }
     return x;
   }
-  // Whether there is one in the domain.
+  // Whether the row or a moved point lies in the domain.
   bool is_inside(std::uint32_t row) const {
     return domain.contains(table.row(row)) || domain.contains(point(row, usual).data());
   }
@@ -61,10 +61,10 @@ struct Samples {
  private:
   static constexpr std::uint64_t usual = 0;
 
-  // As many numbers as dimensions: next to no point of a sphere is one of numbers that are moved.
+  // Whether the domain has as many dimensions as columns. A point of a sphere leaves the sphere when its numbers move.
   bool is_flat() const { return static_cast<std::size_t>(domain.chart.dim) == columns(); }
 
-  // Uniform over what is printed like this number.
+  // A uniform offset within the numbers that print like this one.
   double shift(std::uint32_t row, std::size_t column, std::uint64_t hash) const {
     const std::size_t place = row * columns() + column;
     const double above = std::pow(10.0, table.digits[place]) / 2, below = std::pow(10.0, table.digits_below[place]) / 2;
@@ -89,7 +89,7 @@ double checked(double value, const std::string& where, const std::string& what =
   return value;
 }
 
-// The probabilities of the outcomes: an expression's, or the numbers of a file.
+// The probabilities of the outcomes: from an expression or from a file.
 std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
   std::vector<double> p;
   if (!o.pdf.empty()) {
@@ -113,17 +113,17 @@ std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
   return p;
 }
 
-// The numbers of a point, as many as there are columns.
+// The numbers of a point, one for each column.
 std::span<const double> numbers(const ParsedDomain& domain, const mc::PointArray& x) {
   return std::span(x).first(domain.columns.size());
 }
 
-// What an unnormalised density is to be divided by, and the relative error of that.
+// The integral of an unnormalised density and its relative error.
 std::pair<double, double> total(const ParsedDomain& domain, const Density& density) {
   const auto f = [&](const mc::AnyDomain::Coordinates& v) {
     const mc::AnyDomain::DomainPoint at = domain.chart.from_unit(v);
     const double value = density(numbers(domain, at.x)) * at.jacobian;
-    return std::isfinite(value) ? value : 0.0; // the ends of infinite intervals
+    return std::isfinite(value) ? value : 0.0; // 0 at the ends of infinite intervals
   };
   const mc::CubatureResult r = mc::integrate_boxes(f, domain.chart.dim, {mc::UnitBox()});
   mc::require(r.total.value > 0, "--pdf: the expression was 0 at every point that was evaluated");
@@ -169,7 +169,7 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
 Subject discrete_subject(const std::shared_ptr<const Samples>& f, const std::vector<double>& probabilities,
                          std::uint64_t seed) {
   Subject s;
-  s.mass_tolerance = 1e-4; // printed probabilities
+  s.mass_tolerance = 1e-4; // tolerance for printed probabilities
   s.atoms = probabilities;
   const auto shuffler = std::make_shared<RowShuffler>(static_cast<std::uint32_t>(f->table.rows()), seed);
   s.draw = [f, shuffler, probabilities](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {

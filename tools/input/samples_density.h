@@ -1,18 +1,20 @@
 #pragma once
-/// Samples drawn by anything, against a density or probabilities as an expression.
+/// Checks samples from a file against a density or probabilities given as an expression.
 
 #include <input/samples_file.h>
 
 namespace carlo {
 
 /// The file's samples as one case.
-///   samples : a row each, the columns of the domain, see parse_domain
-///   density : an expression in the names of the columns, against length, area, volume or solid angle, or their
-///             product. Of outcomes: the probability of i; or --pdf-file, the probabilities in its order
-///   method  : as with a sampler of libmc; but a printed number stands for all that round to it, so each is moved by
-///             less than half of its last digit, at random by the seed
-///   throws  : Error for a file that is missing or broken ("s.csv:17: ..."), fewer than 2000 samples, a sample off the
-///             domain, an expression that does not parse, or a density that is nowhere positive
+///   samples : one in each row, with the columns of the domain, see parse_domain
+///   density : an expression in the names of the columns, with respect to length, area, volume or solid angle, or their
+///             product. For outcomes it is the probability of i; alternatively --pdf-file lists the probabilities in
+///             order.
+///   method  : as for a sampler of libmc. A printed number stands for all numbers that round to it, so each is moved by
+///             less than half of its last digit. The offset is random and depends on the seed.
+///   throws  : Error for a file that is missing or broken ("s.csv:17: ..."), fewer than 2000 samples, a sample outside
+///   of
+///             the domain, an expression that does not parse, or a density that is positive nowhere
 SamplesFileCase samples_density_case(const SamplesFileOptions& options);
 
 } // namespace carlo

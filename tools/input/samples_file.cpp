@@ -27,9 +27,10 @@ using mc::Subject;
 using mc::Vec2;
 
 constexpr double unit_tolerance = 1e-5, mass_tolerance = 1e-4;
-constexpr double digits = 1e-6; // to which programs print numbers of order 1
+constexpr double digits = 1e-6; // precision to which programs print numbers of order 1
 
-// The sphere as (azimuth, angle from +z), each over its range, or a rectangle, as the unit square of the grid.
+// The sphere as (azimuth, angle from +z), each scaled by its range, or a rectangle, mapped to the unit square of the
+// grid.
 struct GridDomain {
   bool sphere = false;
   std::vector<VariableBounds> sides;
@@ -67,7 +68,7 @@ struct GridDomain {
     for (const VariableBounds& s : sides) named.push_back({.name = s.name, .a = s.lo, .b = s.hi});
     return named;
   }
-  // Of a cell in row j.
+  // Measure of a cell in row j.
   double measure(std::size_t j, std::size_t width, std::size_t height) const {
     const double w = static_cast<double>(width), h = static_cast<double>(height);
     if (sphere)
@@ -113,7 +114,7 @@ struct Grid {
   std::size_t width = 0, height = 0;
   std::vector<double> density;
 
-  std::uint32_t cell(const Vec2<double>& p) const { // p in the unit square
+  std::uint32_t cell(const Vec2<double>& p) const { // p lies in the unit square
     const auto index = [](double at, std::size_t n) {
       return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
     };
@@ -146,13 +147,13 @@ Grid read_grid(const std::string& file) {
   return g;
 }
 
-// Everything about the two files that the subject's functions share.
+// Data of the two files that the subject's functions share.
 struct SamplesFile {
   std::string file;
   CsvTable table;
   GridDomain domain;
-  Grid grid;                        // of the density on the unit square
-  std::vector<std::uint32_t> cells; // of the samples
+  Grid grid;                        // the density on the unit square
+  std::vector<std::uint32_t> cells; // one for each sample
 };
 
 std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
@@ -188,7 +189,7 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
     const double* x = table.row(i);
     auto cell = cell_of(x);
     if (!cell && off++ == 0) first_off = i;
-    // What rounding of the last printed digit carried across an edge of the support is no leak.
+    // A sample that rounding of the last printed digit moved across an edge of the support is no leak.
     if (cell && grid.density[*cell] == 0)
       for (std::size_t k = 0; k < table.columns; ++k)
         for (const double sign : {-1.0, 1.0}) {
@@ -213,7 +214,7 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
       SamplesFile{o.samples, std::move(table), std::move(domain), std::move(grid), std::move(cells)});
 }
 
-// Samples count by their cells alone: where in it each lies is drawn evenly.
+// Only the cell of a sample counts; its position in the cell is drawn uniformly.
 Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::string& title, std::uint64_t seed) {
   Subject s;
   s.name = title;

@@ -1,6 +1,6 @@
-// P1 to P14: the sampling slips of Ray Tracing: The Rest of Your Life, in its first edition [Shirley16] and in version
-// 3.2.3. Without a sampler:
-//   P10 "a zero radius gives cos = 0, and that works" is a sentence; its cosine is 1 and its density infinite
+// P1 to P14: the sampling bugs of Ray Tracing: The Rest of Your Life, in its first edition [Shirley16] and in version
+// 3.2.3. Without a test case:
+//   P10 the sentence "a zero radius gives cos = 0, and that works": the cosine is 1 and the density infinite
 #include <known_bugs/test_cases.h>
 
 #include <mc/random/hash.h>
@@ -31,10 +31,10 @@ V doubled(Pcg& r) {
   return {std::cos(phi) * 2 * std::sqrt(r2), std::sin(phi) * 2 * std::sqrt(r2), std::sqrt(1 - r2)};
 }
 
-// A sphere light of radius 1 at distance d, as the book samples it: solid angle of the cone that it fills.
+// A sphere light of radius 1 at distance d, with the book's formula: solid angle of the cone that encloses it.
 double book_solid_angle(double d) { return 2 * pi * (1 - std::sqrt(1 - 1 / (d * d))); }
 
-// A narrow cone in float, through its cosine: 1 - cos keeps three bits at R / d = 1e-3.
+// A narrow cone in float, sampled through its cosine: 1 - cos keeps three bits at R / d = 1e-3.
 TestCase cone_by_cosine() {
   const float q = 1e-6f, cos_max = std::sqrt(1 - q);
   const auto sample = [cos_max](Pcg& r) {
@@ -48,7 +48,7 @@ TestCase cone_by_cosine() {
   return test_case(make_subject("", mc::Sphere<float>{}, sample, pdf));
 }
 
-// The mirror direction at 75 degrees plus a point of the unit ball.
+// The mirror direction at 75 degrees plus a point in the unit ball.
 V fuzzy(Pcg& r) { return (incident(75) + in_ball(r)).normalized(); }
 double fuzzy_pdf(const V& w) {
   const double c = w.dot(incident(75));
@@ -59,8 +59,7 @@ double fuzzy_pdf(const V& w) {
 constexpr double light_cos = 0.8, light_pdf = 1 / (2 * pi * (1 - light_cos));
 V to_light(Pcg& r) { return direction(1 - uniform(r) * (1 - light_cos), 2 * pi * uniform(r)); }
 
-// What a point of the floor sees of the ceiling's light through a sheet 0.3 above it, if hits at t <= 0.001 do not
-// count.
+// The light of the ceiling at a point of the floor below a sheet at height 0.3, if hits at t <= 0.001 do not count.
 double light_through_occluder(Pcg& r, bool unit) {
   const V d(130 * uniform(r), 105 * uniform(r), 554);
   return 0.3 / d.z() * (unit ? d.norm() : 1) > 0.001 ? 0 : 1;
@@ -151,7 +150,7 @@ void add_mixtures_and_numbers(KnownBugs& s) {
                    cosine_pdf)),
                test_case(on_hemisphere([](Pcg& r) { return direction(std::sqrt(1 - uniform(r)), 2 * pi * uniform(r)); },
                                        cosine_pdf))});
-  // Distances uniform in [R/2, 3R/2]: the mean solid angle is half of 4 pi and half of the closed form outside.
+  // For distances uniform in [R/2, 3R/2], the mean solid angle is half of 4 pi plus half of the closed form outside.
   const double outside = 0.5 - (std::sqrt(1.25) - std::acos(1 / 1.5));
   s.push_back({"P13", "NaN turned to 0", "book, de_nan",
                "hides P8: the light seen from inside turns black; count what is not finite, and fail", Fault::bias,

@@ -22,7 +22,7 @@ struct Hit {
 // The light: y = 554, x in [213, 343], z in [227, 332], shining down.
 constexpr double light_y = 554, light_x0 = 213, light_x1 = 343, light_z0 = 227, light_z1 = 332, radiance = 15;
 
-// A box turned about y, then moved.
+// A box rotated about y, then translated.
 struct Block {
   double cos, sin;
   V corner, size;
@@ -97,7 +97,7 @@ V doubled(Pcg& r) {
   return V(std::cos(phi) * 2 * std::sqrt(r2), std::sin(phi) * 2 * std::sqrt(r2), std::sqrt(1 - r2)).normalized();
 }
 
-// A direction at a wall and what the path weighs after it: cos / pi over the density that the book claims.
+// A direction at a wall and the weight of the path after it: cos / pi divided by the density that the book states.
 struct Bounce {
   V w;
   double weight;
@@ -132,7 +132,7 @@ V view(double x, double y) {
   return V((2 * x - 1) * half, (2 * y - 1) * half, 1).normalized();
 }
 
-// What the picture shows of the light itself: the same in every box, so it need not be noisy.
+// Radiance of the directly visible light. It is the same in every box, so it is computed without noise.
 double light_in_view() {
   constexpr int n = 1000;
   std::uint64_t seen = 0;
@@ -141,7 +141,7 @@ double light_in_view() {
   return radiance * static_cast<double>(seen) / (n * n);
 }
 
-// Radiance of a path through a random point of the picture, the light in view left out.
+// Radiance of a path through a random point of the picture, without the directly visible light.
 double path(Strategy bounce, Pcg& r) {
   const double x = uniform(r);
   V o = eye, d = view(x, uniform(r)), beta = V::Ones();

@@ -1,5 +1,5 @@
 #pragma once
-/// The Cornell box of the books, rendered by the samplers that their chapters print and by right ones.
+/// The Cornell box of the books, rendered with the samplers that their chapters print and with correct ones.
 
 #include <cstdint>
 #include <string>
@@ -7,19 +7,20 @@
 
 namespace carlo {
 
-/// The mean radiance of the picture, all pixels and channels, by one way of choosing directions at a wall.
+/// The mean radiance of the picture, over all pixels and channels, for one way of sampling directions at a wall.
 struct CornellBox {
   std::string name, source, description;
   bool claimed_right = false;
   double mean = 0, std_error = 0;
   double off = 0, off_error = 0; ///< mean / reference - 1 and its standard error
-  double p = 1;                  ///< of equality with the reference, two-sided
+  double p = 1;                  ///< two-sided p-value of equality with the reference
 };
 
-/// The reference first: cosine and light directions in a correct mixture, on four times as many paths.
+/// Renders all boxes. The first is the reference: cosine and light directions in a correct mixture, with four times as
+/// many paths.
 ///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50
-///            bounces
-///   result : same bits for any number of threads
+///   bounces
+///   result : bitwise equal for any number of threads
 ///   Source : [Shirley16]
 std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads);
 

@@ -1,11 +1,11 @@
-// P15 to P36: the slips of the SIGGRAPH 2019 course Introduction to Real-Time Ray Tracing, of smallpt as a lecture
+// P15 to P36: the bugs of the SIGGRAPH 2019 course Introduction to Real-Time Ray Tracing, of smallpt as a lecture
 // prints it, of version 4 of the Weekend books, and of the notes on lajolla.
-// Without a sampler:
-//   P16 the pixel's corner instead of its centre when jitter is off: no random number is drawn
+// Without a test case:
+//   P16 the pixel's corner instead of its centre without jitter: no random number is drawn
 //   P17 one parameter for focal length and focus distance: a name, not a density
 //   P23 a texel index of 1 past the last: an index, not a density
-//   P28 two arguments whose order of evaluation is left open: the language
-//   P31 fewer than 4 samples a pixel become 0: an option that is not checked
+//   P28 two arguments evaluated in unspecified order: a matter of the language
+//   P31 fewer than 4 samples per pixel become 0: an option that is not checked
 //   P32 walls of radius 1e5 in float: the precision of an intersection
 #include <known_bugs/test_cases.h>
 
@@ -26,10 +26,10 @@ using mc::Fault, mc::Pcg;
 
 double schlick(double f0, double cosine) { return f0 + (1 - f0) * std::pow(1 - cosine, 5); }
 
-// The course's microfacet lobe: half vectors of the GGX distribution, Schlick's Fresnel and masking terms, and a
+// The course's microfacet lobe: half vectors from the GGX distribution, Schlick's Fresnel and masking terms, and a
 // diffuse part.
 struct CourseGgx {
-  double roughness, f0, k; // masking of Schlick: n.v / (n.v (1 - k) + k)
+  double roughness, f0, k; // k in Schlick's masking: n.v / (n.v (1 - k) + k)
   enum class Horizon { ignored, rejected } horizon = Horizon::rejected;
   enum class Diffuse { none, added, layered } diffuse = Diffuse::none;
 
@@ -74,8 +74,8 @@ TestCase bsdf_test_case(const CourseGgx& b, double n_dot_v) {
                    std::acos(n_dot_v) * 180 / pi);
 }
 
-// Reflect or leave glass at 40 degrees inside: drawn with one probability, claimed with that of the same path walked
-// backwards.
+// Reflection or refraction of light that leaves glass at 40 degrees inside. The sample uses one probability; the stated
+// one is the probability of the reversed path.
 TestCase leaving_glass(double drawn) {
   mc::Subject s;
   const double sin_in = std::sin(40 * pi / 180), outside = std::sqrt(1 - 1.5 * 1.5 * sin_in * sin_in),
@@ -89,7 +89,7 @@ TestCase leaving_glass(double drawn) {
   return test_case(s);
 }
 
-// |n x t| = (n1 / n2) |n x d| for a ray that enters or leaves glass; `sign` stands before the normal's term.
+// The error in |n x t| = (n1 / n2) |n x d| for a ray that enters or leaves glass; `sign` multiplies the normal's term.
 double snell_error(Pcg& r, double sign) {
   const bool into = uniform(r) < 0.5;
   const double ratio = into ? 1 / 1.5 : 1.5;
@@ -106,7 +106,7 @@ double next48(std::uint64_t& x) {
   return static_cast<double>(x) * 0x1p-48;
 }
 
-// The first two random numbers of image row after image row.
+// The first two random numbers of consecutive image rows.
 TestCase rows(bool cubed) {
   mc::Subject s;
   s.dim = 2;
@@ -122,7 +122,7 @@ TestCase rows(bool cubed) {
   return test_case(s);
 }
 
-// Four subpixels of four samples each of a radiance of 12 with probability 0.03.
+// Four subpixels with four samples each; a sample has radiance 12 with probability 0.03.
 double pixel(Pcg& r, double most) {
   double sum = 0;
   for (int sub = 0; sub < 4; ++sub) {
@@ -133,7 +133,7 @@ double pixel(Pcg& r, double most) {
   return sum;
 }
 
-// Light from the cone cos > 0.8 about the normal of a white floor: what leaves the floor is 1 - 0.8^2 = 0.36.
+// Light from the cone cos > 0.8 about the normal of a white floor: the reflected radiance is 1 - 0.8^2 = 0.36.
 double next_event(Pcg& r) { return cosine_pdf(direction(1 - 0.2 * uniform(r), 2 * pi * uniform(r))) * 2 * pi * 0.2; }
 double emitter_hit(Pcg& r) { return cosine(r).z() > 0.8 ? 1 : 0; }
 

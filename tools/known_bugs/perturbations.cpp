@@ -1,4 +1,4 @@
-// C1 ... and V1 ...: small disturbances of a cosine lobe and of visible GGX normals, the measure of a checker's power.
+// C1 ... and V1 ...: small perturbations of a cosine lobe and of visible GGX normals, which measure a checker's power.
 #include <known_bugs/test_cases.h>
 
 #include <mc/warp/hemisphere.h>
@@ -16,7 +16,7 @@ V rotated(const V& w, double degrees) {
   return {c * w.x() - s * w.y(), s * w.x() + c * w.y(), w.z()};
 }
 
-// A share of the samples of one sampler replaced by those of another.
+// A sampler in which a share of the samples comes from another sampler.
 SampleDirection replaced(const SampleDirection& sample, double share, const SampleDirection& other) {
   return [=](Pcg& r) { return uniform(r) < share ? other(r) : sample(r); };
 }
@@ -42,7 +42,7 @@ SampleDirection of(const mc::TrowbridgeReitzVisibleNormals<double>& warp) {
   return [warp](Pcg& r) { return warp.sample(r.point<double, 2>()); };
 }
 
-// A rotated cosine lobe is a cosine lobe: only the inverse tells.
+// A rotated cosine lobe is still a cosine lobe, so only the inverse reveals the rotation.
 TestCase turned_cosine(double degrees) {
   return test_case(InvertibleWarp{
       [degrees](const mc::Vec2<double>& u) { return rotated(mc::CosineHemisphere<double>{}.sample(u), degrees); },

@@ -1,4 +1,4 @@
-// R1 ...: faults that renderers shipped, each in our own words.
+// R1 ...: bugs that renderers shipped, each reimplemented here.
 #include <known_bugs/test_cases.h>
 
 #include <mc/core/turns.h>
@@ -25,14 +25,14 @@ using V2 = mc::Vec2<double>;
 using F = Eigen::Array3d;
 using mc::Fault, mc::Pcg;
 
-// Four equal cells; the last entry of the distribution function is what the sum was, not 1.
+// Four equal cells. The last entry of the distribution function is the rounded sum instead of 1.
 double table_sample(double u, double third) {
   const double cdf[] = {0, 0.25, 0.5, third, 1.0};
   const auto i = std::upper_bound(cdf, cdf + 4, u) - cdf - 1;
   return (static_cast<double>(i) + (u - cdf[i]) / (cdf[i + 1] - cdf[i])) / 4;
 }
 
-// (p(x) - p(0)) / (p(1) - p(0)) by a polynomial p that always takes x.
+// (p(x) - p(0)) / (p(1) - p(0)) with a polynomial p that ignores its argument and always uses x.
 double by_ignored_argument(double x) {
   const double p = x * x * x * (2 - x);
   return (p - p) / (p - p);
@@ -45,7 +45,7 @@ TestCase smoothstep(const std::function<double(double)>& invert) {
                                     .invert = invert});
 }
 
-// Rounding leaves barycentrics whose sum is a little above 1; the third must not become negative.
+// After rounding, the sum of two barycentrics may slightly exceed 1; the third must not become negative.
 double third_barycentric(Pcg& r, bool twice) {
   double b1 = 1e-3 + uniform(r), b2 = std::max(1 - b1, 0.0) + 1e-3 * uniform(r);
   if (b1 + b2 > 1) {
@@ -56,8 +56,8 @@ double third_barycentric(Pcg& r, bool twice) {
   return std::max(b1 + b2 - 1, 0.0);
 }
 
-// Visible normals by a disk around the stretched direction w. `skewed`: near the pole the tangent is (1,0,0), not
-// perpendicular.
+// Visible normals by a disk around the stretched direction w. `skewed`: near the pole the tangent is (1,0,0), which is
+// not perpendicular.
 InvertibleWarp visible_normals(bool skewed) {
   const double alpha = 0.01;
   const V wo = incident(24), w = V(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
@@ -87,7 +87,8 @@ TestCase weights(float (*heuristic)(float, float)) {
   });
 }
 
-// A grey diffuse surface sampled by a diffuse and a rough lobe; sample picks with one weight, pdf states another.
+// A grey diffuse surface sampled by a diffuse and a rough lobe. sample() selects the lobe with one weight, pdf() states
+// another.
 TestCase two_lobes(double sampled, double stated) {
   const auto density = [](double weight, const V& wo, const V& wi) {
     if (!(wo.z() > 0 && wi.z() > 0)) return 0.0;
@@ -109,19 +110,19 @@ TestCase two_lobes(double sampled, double stated) {
   return test_case(b, 30);
 }
 
-// The mean cosine of a phase function that was asked for g = 0.995.
+// The mean cosine of a phase function with the requested g = 0.995.
 TestCase mean_cosine(double g) {
   return mean_test_case(
       0.995, [warp = mc::HenyeyGreenstein<double>(g)](Pcg& r) { return warp.sample(r.point<double, 2>()).z(); });
 }
 
-// An end, just inside of it, or the middle.
+// 0, a value next to 0 or 1, or the middle.
 float end_or_middle(Pcg& r) {
   const double all[] = {0, 0x1p-24, 0.5, 1 - 0x1p-24};
   return static_cast<float>(all[r.next32() & 3]);
 }
 
-// A warp at such places: finite, in its domain, density positive.
+// A warp at such places: the result must be finite, in the domain, and have a positive density.
 template <class W> TestCase edges(const W& warp) {
   return law_test_case("boundary and branches of u", 0, Fault::boundary, [warp](Pcg& r) {
     mc::Vec2<float> u;
@@ -192,8 +193,8 @@ TestCase nearly_uniform_fisher() {
   return test_case(make_subject("", mc::Sphere<float>{}, sample, pdf));
 }
 
-// Three outcomes whose sums were rounded: what is left of u is divided by the weight, not by the width that was
-// searched.
+// Three outcomes with rounded cumulative sums. The remainder of u is divided by the weight instead of the width of the
+// interval that was searched.
 struct ReusedRemainder {
   using Scalar = float;
   std::size_t size() const { return 3; }

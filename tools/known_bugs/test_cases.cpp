@@ -47,7 +47,8 @@ mc::Check finite_check(const mc::Moments& moments, std::uint64_t samples) {
 }
 
 mc::Check mean_check(const mc::Moments& moments, double value, double alpha) {
-  const bool exact = std::abs(moments.mean() - value) <= 1e-12 * std::abs(value); // a perfect estimator has no spread
+  const bool exact =
+      std::abs(moments.mean() - value) <= 1e-12 * std::abs(value); // a perfect estimator has zero variance
   const mc::TTest test = exact ? mc::TTest{} : mc::t_test(moments, value, alpha);
   mc::Check check{"mean", mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
   if (test.p <= alpha) {
@@ -79,7 +80,7 @@ mc::Report law_report(mc::WorstError worst, const SampleNumber& error, const Cas
   return report;
 }
 
-// The laws of a sampler, its inverse first: what breaks that is told before what counts find.
+// The laws of a sampler, with the inverse first: its failure is reported before failures of counts.
 TestCase test_case_with_inverse(const mc::AnyDistribution& distribution, double tolerance) {
   TestCase t = test_case(make_subject(distribution));
   t.check = [counts = t.check, distribution, tolerance](const CaseOptions& c) {

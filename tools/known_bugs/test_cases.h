@@ -1,7 +1,6 @@
 #pragma once
-/// What a slip can be: a sampler with its density, a warp with its inverse, a BSDF, an estimator of a known mean, or a
-///                     law.
-/// Function objects, not templates: a list of sixty samplers then compiles in seconds.
+/// Kinds of bugs: a sampler with its density, a warp with its inverse, a BSDF, an estimator of a known mean, or a law.
+/// They are function objects, not templates, so that a list of sixty samplers compiles in seconds.
 
 #include <known_bugs/known_bugs.h>
 
@@ -19,7 +18,7 @@ using SampleDirection = std::function<std::optional<Direction>(mc::Pcg&)>;
 using Density = std::function<double(const Direction&)>;
 using SampleNumber = std::function<double(mc::Pcg&)>;
 
-/// May return nothing: then the density has less mass than 1, by the rate of failures.
+/// If allowed, the sampler may return nothing; its density then integrates to 1 minus the failure rate.
 enum class Failures { never, allowed };
 
 mc::Subject on_hemisphere(SampleDirection sample, Density pdf, Failures failures = Failures::never);
@@ -28,7 +27,9 @@ mc::Subject on_interval(double lo, double hi, SampleNumber sample, std::function
 
 TestCase test_case(mc::Subject subject);
 
-/// A warp of the hemisphere with its inverse: the laws of a sampler, and invert(sample(u)) = u within `tolerance`.
+/// A warp of the hemisphere with its inverse. It is checked by the laws of a sampler and by invert(sample(u)) = u
+/// within
+/// `tolerance`.
 struct InvertibleWarp {
   std::function<Direction(const mc::Vec2<double>&)> sample;
   Density pdf;
@@ -36,13 +37,13 @@ struct InvertibleWarp {
 };
 TestCase test_case(const InvertibleWarp& warp, double tolerance = 1e-9);
 
-/// The same of [0,1].
+/// A warp of [0,1], checked in the same way.
 struct InvertibleWarp1D {
   std::function<double(double)> sample, pdf, invert;
 };
 TestCase test_case(const InvertibleWarp1D& warp, double tolerance = 1e-12);
 
-/// A BSDF seen from the polar angle theta_o [degrees], and its physics: the laws of check_bsdf.
+/// A BSDF for the outgoing polar angle theta_o [degrees], checked by the laws of check_bsdf.
 struct BsdfFunctions {
   struct Sample {
     Direction wi;
@@ -56,16 +57,16 @@ struct BsdfFunctions {
 };
 TestCase test_case(const BsdfFunctions& bsdf, double theta_o);
 
-/// An estimator whose mean must be `value`: finite, and by Student's test.
+/// An estimator with the expected value `value`, checked by a t-test; every estimate must be finite.
 TestCase mean_test_case(double value, const SampleNumber& estimator);
 
-/// A law without counts: error(random) <= limit at every point. NaN breaks it.
+/// A law without counts: error(random) <= limit at every point. NaN violates it.
 TestCase law_test_case(const std::string& law, double limit, mc::Fault fault, const SampleNumber& error);
 
 constexpr double pi = std::numbers::pi;
 inline double uniform(mc::Pcg& r) { return r.uniform<double>(); }
 
-/// Directions, their cosine density, a point in the unit ball.
+/// Directions, their cosine density, and a point in the unit ball.
 inline Direction direction(double z, double phi) {
   return mc::spherical_direction<double>(mc::safe_sqrt<double>((1 - z) * (1 + z)), z, phi);
 }

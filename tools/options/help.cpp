@@ -29,7 +29,7 @@ std::string term_of(const Option& o) {
   return o.value.empty() || is_positional(o) ? term : term + " " + o.value;
 }
 
-// " Default: 64." of a field that holds one.
+// " Default: 64." if the field has a default that can be shown.
 std::string default_of(const Option& o) {
   const auto text = [](auto* field) -> std::string {
     using T = std::remove_pointer_t<decltype(field)>;

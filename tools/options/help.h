@@ -15,7 +15,7 @@ std::string help_of(const Subcommand& subcommand, std::size_t columns);
 /// `carlo --help`.
 std::string help_of(const std::vector<Subcommand>& subcommands, std::size_t columns);
 
-/// One sentence of carlo.
+/// The one-sentence description of carlo.
 extern const char* const carlo_summary;
 
 } // namespace carlo

@@ -1,5 +1,5 @@
 #pragma once
-/// Options that the subcommands which measure integrals and scenes have in common.
+/// Options shared by the subcommands that measure integrals and scenes.
 
 #include <converge/picture_measurement.h>
 #include <options/subcommand.h>
@@ -12,9 +12,9 @@ namespace carlo {
 
 struct IntegralOptions {
   std::vector<std::string> integrands; ///< names, groups, or an expression
-  std::string domain;                  ///< of an expression
-  std::string plugin;                  ///< or the integrands of this shared object
-  std::optional<double> timeout;       ///< seconds for the plugin's process, see Limits
+  std::string domain;                  ///< bounds of the variables of an expression
+  std::string plugin;                  ///< shared object to load integrands from instead
+  std::optional<double> timeout;       ///< seconds for the plugin's process, see ResourceLimits
   std::optional<double> memory;        ///< GiB for the plugin's process
   std::uint64_t max_n = 1 << 18;       ///< evaluations at most
   bool list = false;
@@ -58,14 +58,14 @@ struct SceneMeasureRequest {
   std::string samplers;   ///< comma-separated; empty: all
   bool for_trade = false; ///< also adaptive sampling, splats and tiles, and plain_mc_method
   bool all = false;       ///< every strategy that finds every light, adaptive sampling, splats and tiles
-  int pictures = 0;       ///< pictures per error; 0: enough to know it to 10 %
+  int pictures = 0;       ///< pictures per error; 0: enough for a relative error of 10 %
   double seconds = 0;     ///< wall-clock budget; 0: none
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// A target that stands for a scene in summaries and tables.
+/// A placeholder target for a scene in summaries and tables.
 IntegralTarget scene_target(const std::string& path);
 
 /// Measures every strategy, sampler and longest path, with progress on a terminal.

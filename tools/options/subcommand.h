@@ -25,7 +25,7 @@ enum ExitCode : int {
   exit_bad_input = 2,     ///< bad usage, file or value; one line on stderr names the remedy
   exit_interrupted = 130, ///< Ctrl-C; the results so far are written, or printed, and marked as such
   exit_closed_pipe = 141, ///< nothing reads standard output any more, as behind `| head`
-  exit_terminated = 143   ///< SIGTERM, else as exit_interrupted, which subcommands return
+  exit_terminated = 143   ///< SIGTERM; subcommands return exit_interrupted, and main translates it
 };
 
 /// Another option that cannot be given with this one.
@@ -34,12 +34,12 @@ struct Exclusion {
   std::string reason; ///< "--time chooses the number of samples": the end of a message
 };
 
-/// One option, or an argument that has a place and no name.
+/// One option, or a positional argument without a name.
 struct Option {
   using Destination = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*,
                                    std::optional<int>*, std::optional<double>*>;
 
-  std::string names;       ///< "-o,--output"; "SCENE" of an argument by place
+  std::string names;       ///< "-o,--output"; "SCENE" for a positional argument
   std::string value;       ///< metavariable for --help: "SECONDS", "FILE"; empty for a flag
   Destination destination; ///< filled when the option is given; its initial value is the default that --help shows
   std::string help;        ///< one or two sentences; a default that the field cannot show stands at the end
@@ -88,7 +88,7 @@ struct Subcommand {
   std::function<int(const std::string& command_line)> run;
 };
 
-/// The subcommand of an Options struct and its functions. Where Options has a field `command` it gets the command line.
+/// Combines an Options struct with its functions. If Options has a field `command`, it receives the command line.
 template <class Options>
 Subcommand make_subcommand(About about, std::vector<Option> (*rows)(Options&), int (*run)(const Options&)) {
   const auto options = std::make_shared<Options>();
@@ -100,7 +100,7 @@ Subcommand make_subcommand(About about, std::vector<Option> (*rows)(Options&), i
   return c;
 }
 
-/// All of them, in the order of --help.
+/// All subcommands, in the order of --help.
 std::vector<Subcommand> subcommands();
 
 } // namespace carlo

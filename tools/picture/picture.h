@@ -38,10 +38,11 @@ std::string samples_per_second(const render::RenderResult& result);
 /// "1.23 % (worst block 2.34 %)", or "unknown (one sample per pixel)".
 std::string format_error(const render::RenderResult& result);
 
-/// Three lines of at most 80 columns, where the file name is short: size and time, error, rates. "PARTIAL: ..." comes
-/// first for an interrupted render; a last sentence says why the run did not end at its target error.
-///   file         : of the picture
-///   target_error : the one that was asked for
+/// Three lines of at most 80 columns if the file name is short: size and time, error, rates. An interrupted render
+/// begins
+/// with "PARTIAL: ...". A last sentence explains why a run ended before its target error.
+///   file         : the written picture
+///   target_error : the requested error, if any
 std::string render_summary(const std::string& file, const render::RenderResult& result,
                            const std::optional<double>& target_error);
 

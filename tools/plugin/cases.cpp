@@ -1,4 +1,4 @@
-/// Both ends of the requests about a plugin: carlo's, and the worker's.
+/// Requests about a plugin: the code that sends them in carlo and the code that answers them in the worker.
 
 #include <input/parameters.h>
 #include <plugin/check_request.h>
@@ -21,7 +21,7 @@ using nlohmann::json;
 
 namespace {
 
-// What carlo learns about a sampler.
+// Description of a sampler that the worker sends to carlo.
 struct Parameter {
   std::string name;
   double value, lo, hi;
@@ -49,7 +49,7 @@ Parameter* find(std::vector<Parameter>& parameters, const std::string& name) {
   return it == parameters.end() ? nullptr : &*it;
 }
 
-// A set with the text that it came from.
+// A parameter set and the text that it was parsed from.
 struct Asked {
   ParameterSet values;
   std::string text;
@@ -71,8 +71,9 @@ std::vector<Asked> asked_sets(const std::string& path, const std::vector<std::st
   return all;
 }
 
-// The sampler's parameters with those of the set in their places; nothing when it lacks one of them, or when a value is
-// out of range of a sampler that is not `asked` for.
+// The sampler's parameters, replaced by the values of the set. Nothing if the sampler lacks one of the names. A value
+// out
+// of range throws if the sampler was `asked` for, and returns nothing otherwise.
 std::optional<std::vector<double>> values_of(const std::string& path, const Description& d, const ParameterSet& set,
                                              bool asked) {
   std::vector<Parameter> parameters = d.parameters;

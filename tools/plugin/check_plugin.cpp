@@ -12,12 +12,12 @@ namespace {
 
 using mc::PointArray, mc::AnyDistribution;
 
-// As the plugin's scalar has it.
+// Rounds to the plugin's scalar type.
 double rounded(const PluginDistribution& p, double x) {
   return p->scalar == MC_FLOAT ? static_cast<double>(static_cast<float>(x)) : x;
 }
 
-// The points of some samples.
+// The points of pilot samples.
 std::vector<PointArray> pilot(const PluginDistribution& plugin, std::uint64_t seed) {
   mc::Pcg random(seed, 34);
   std::vector<PointArray> drawn;
@@ -41,7 +41,7 @@ ParsedDomain domain_of(const PluginDistribution& plugin, std::uint64_t seed) {
                       plugin->scalar == MC_FLOAT ? Rounding::floats : Rounding::doubles);
 }
 
-// Sets weight to weight pdf / f, 1 where they agree.
+// Sets weight to weight pdf / f, which is 1 if they agree.
 void set_weight(const PluginDistribution& plugin, const AnyDistribution::Uniforms& u, AnyDistribution::Sample& d) {
   const double f = plugin.eval(d.x.data()), stated = plugin.weight(u.data(), d.x.data());
   d.weight = f == 0 && stated == 0 ? 1.0 : stated * d.pdf / f;
@@ -49,7 +49,7 @@ void set_weight(const PluginDistribution& plugin, const AnyDistribution::Uniform
   d.stated.expected = f / d.pdf;
 }
 
-// The point that the plugin makes of u; what it forgets to write shows as NaN.
+// The point that the plugin returns for u. Coordinates that it does not write stay NaN.
 std::optional<AnyDistribution::Sample> draw(const PluginDistribution& plugin, const mc::AnyDomain& domain,
                                             const AnyDistribution::Uniforms& u) {
   AnyDistribution::Sample d;

@@ -1,5 +1,5 @@
 #pragma once
-/// The request to check one sampler of foreign code.
+/// The request to check one sampler of external code.
 
 #include <catalogue/catalogue.h>
 
@@ -9,11 +9,11 @@
 
 namespace carlo {
 
-/// What every such request holds; the task adds how it finds the sampler.
+/// The fields that every such request contains; the task adds fields that identify the sampler.
 nlohmann::json check_request(const char* task, const std::string& who, const std::string& title,
                              const CaseOptions& options);
 
-/// The options of a request, as the worker reads them.
+/// Decodes the options of a request in the worker.
 CaseOptions requested_options(const nlohmann::json& request);
 
 } // namespace carlo

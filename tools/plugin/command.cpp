@@ -33,7 +33,7 @@ namespace {
 
 using Rows = std::vector<double>;
 
-// "; it held 0.97 GiB of memory of the 1 that --memory allows" of a program that ended for want of more, perhaps.
+// For a program that may have run out of memory: "; it held 0.97 GiB of memory of the 1 that --memory allows".
 std::string near_limit(double peak) {
   rlimit memory{};
   if (getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return {};
@@ -42,7 +42,7 @@ std::string near_limit(double peak) {
   return fmt::format("; it held {:.3g} GiB of memory of the {:g} that --memory allows", peak / 0x1p30, most / 0x1p30);
 }
 
-// The program, asked in batches of rows.
+// The running program, which receives questions in batches of rows.
 class Program {
  public:
   Program(const std::string& command, std::size_t uniforms, std::size_t columns, CallMonitor& monitor)
@@ -55,7 +55,7 @@ class Program {
   Rows pdf(const Rows& x) { return ask("pdf", "x", x, columns_, 1); }
 
  private:
-  static constexpr std::size_t batch = 4096; // rows: neither side waits with a full pipe for the other
+  static constexpr std::size_t batch = 4096; // rows; small enough that neither side blocks on a full pipe
 
   Rows ask(const char* what, const char* argument, const Rows& in, std::size_t width, std::size_t answer_width) {
     static_assert(std::endian::native == std::endian::little);
@@ -63,12 +63,12 @@ class Program {
     out.reserve(in.size() / width * answer_width);
     for (std::size_t at = 0; at < in.size(); at += batch * width) {
       const std::size_t n = std::min(batch, (in.size() - at) / width);
-      const std::size_t more = child_.available_bytes(); // it would be taken for the next answer
+      const std::size_t more = child_.available_bytes(); // extra bytes would be read as part of the next answer
       mc::require(more == 0, "it wrote {} bytes more than the answer; it must write nothing else to standard output",
                   more);
       monitor_.enter(what, argument, in.data() + at,
                      static_cast<int>(std::min<std::size_t>(width, CallMonitor::max_arguments)));
-      // In one write: a single point, asked thousands of times, costs what its system calls cost.
+      // A single write: for single points, system calls dominate the cost.
       std::string question = fmt::format("{} {} {}\n", what, n, width);
       question.append(reinterpret_cast<const char*>(in.data() + at), n * width * sizeof(double));
       if (!write_all(child_.input(), question.data(), question.size())) ended(what);
@@ -105,7 +105,7 @@ class Program {
   CallMonitor& monitor_;
 };
 
-// The leading `width` numbers of each as one row.
+// The first `width` numbers of each array as one row.
 template <class Arrays> Rows rows_of(const Arrays& arrays, std::size_t width) {
   Rows rows;
   rows.reserve(arrays.size() * width);
@@ -113,7 +113,7 @@ template <class Arrays> Rows rows_of(const Arrays& arrays, std::size_t width) {
   return rows;
 }
 
-// The program's sampler on a domain, for its samples asked in batches.
+// The program's sampler on a domain; it draws samples in batches.
 class CommandOnDomain {
  public:
   CommandOnDomain(const std::shared_ptr<Program>& program, const ParsedDomain& domain)
@@ -172,7 +172,7 @@ AnyDistribution plugin_distribution(const std::shared_ptr<Program>& program, con
   return s;
 }
 
-// The domain, its infinite intervals charted on samples.
+// The domain, with charts of infinite intervals centred on pilot samples.
 ParsedDomain charted(Program& program, const std::string& text, std::uint64_t seed) {
   mc::Pcg random(mc::hash(seed, 42));
   Rows u(1000 * program.uniforms());
@@ -189,13 +189,13 @@ ParsedDomain charted(Program& program, const std::string& text, std::uint64_t se
 } // namespace
 
 json run_command_task(const json& request, CallMonitor& monitor) {
-  std::signal(SIGPIPE, SIG_IGN); // a program that ended is an error of the write
+  std::signal(SIGPIPE, SIG_IGN); // a write to a program that has ended then returns an error
   const std::string text = request["domain"];
   const auto program =
       std::make_shared<Program>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
                                 parse_domain(text).columns.size(), monitor);
   auto o = mc::with_statistics(mc::LawOptions(), requested_options(request));
-  o.max_evaluations = 1'000'000; // each is an exchange with the program
+  o.max_evaluations = 1'000'000; // each evaluation is an exchange with the program
   const ParsedDomain domain = charted(*program, text, o.seed);
   AnyDistribution distribution = plugin_distribution(program, domain);
   distribution.breaks = parse_breaks(request["breaks"], domain.chart);

@@ -21,9 +21,9 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_dimensions = 64; // load_plugin sees to it
+constexpr std::size_t most_dimensions = 64; // load_plugin enforces it
 
-// Where an integrand is to be integrated.
+// The box over which an integrand is integrated.
 struct Bounds {
   std::vector<double> lo, hi;
 
@@ -40,7 +40,7 @@ struct Bounds {
   double at(std::size_t k, double u) const { return lo[k] * (1 - u) + hi[k] * u; }
 };
 
-// In the child only. Every call is noted in the watch.
+// Runs only in the child. The monitor records every call.
 UnitCubeIntegral experiment_of(const mc_integrand& f, CallMonitor& monitor) {
   const Bounds bounds(f);
   UnitCubeIntegral e;
@@ -72,12 +72,12 @@ UnitCubeIntegral experiment_of(const mc_integrand& f, CallMonitor& monitor) {
   return e;
 }
 
-// Points for a look at an integrand before it is measured, and what it says of them one by one.
+// Points to check an integrand before it is measured, and its values at single points.
 struct Looked {
-  std::vector<double> u, values; ///< the points one after another
+  std::vector<double> u, values; ///< one point after another
 };
 
-// Fewer where it is slow: what is slow is measured under the worker's limits.
+// A slow integrand is evaluated at fewer points, since its measurement runs under the worker's limits anyway.
 Looked look_at(const UnitCubeIntegral& e) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t most = 22 * 23 / 2; // batches of 1 to 22 points
@@ -91,7 +91,7 @@ Looked look_at(const UnitCubeIntegral& e) {
   return all;
 }
 
-/// Holds what an integrand says of the points again against what it said first.
+/// Compares repeated values of an integrand with its first values.
 class Repeated {
  public:
   Repeated(const UnitCubeIntegral& e, double volume, const Looked& looked)
@@ -103,9 +103,10 @@ class Repeated {
   UnitCubeIntegral::UnitPoint points(std::size_t first, std::size_t count) const {
     return std::span(looked_.u).subspan(first * dim_, count * dim_);
   }
-  // Rounding may differ, as where a loop is vectorised. What is not finite at both is named where it is measured.
+  // Values may differ by rounding, for example in a vectorised loop. If both are not finite, the measurement reports
+  // it.
   void hold(std::size_t i, double again, const std::string& says, const std::string& remedy) const {
-    constexpr double tolerance = 1.5e-8; // the square root of an epsilon
+    constexpr double tolerance = 1.5e-8; // about the square root of epsilon
     const double first = looked_.values[i];
     const bool same = first == again || std::abs(again - first) <= tolerance * size_;
     mc::require(same || (std::isnan(first) && std::isnan(again)), "{}: at {} eval says {:.17g} {} {:.17g}; {}", e_.name,
@@ -119,7 +120,7 @@ class Repeated {
   double volume_, size_ = 0;
 };
 
-// Throws Error for an integrand that is no function of x alone, or whose eval_many is not its eval.
+// Throws Error if an integrand is no function of x alone, or if eval_many differs from eval.
 void require_a_function(const UnitCubeIntegral& e, double volume) {
   const Looked looked = look_at(e);
   const Repeated repeated(e, volume, looked);
@@ -128,14 +129,14 @@ void require_a_function(const UnitCubeIntegral& e, double volume) {
     repeated.hold(i, e.f(repeated.points(i, 1)), "and then", "it must depend on x alone, on nothing before");
   if (!e.f_batch) return;
   const auto hold_batch = [&](std::size_t first, std::size_t size) {
-    std::vector<double> values(size, std::numeric_limits<double>::quiet_NaN()); // which stays where none is written
+    std::vector<double> values(size, std::numeric_limits<double>::quiet_NaN()); // a value that is not written stays NaN
     e.f_batch(repeated.points(first, size), values);
     for (std::size_t i = 0; i < size; ++i)
       repeated.hold(first + i, values[i], fmt::format("and eval_many, as point {} of {},", i, size),
                     "values[i] must be eval(x + i dim) (nan: perhaps not written); mend eval_many, or leave it out");
   };
   hold_batch(0, count);
-  // Of every small size, for the remainders of loops over several points.
+  // Batches of every small size, to test the remainders of vectorised loops.
   for (std::size_t first = 0, size = 1; first < count; first += size++)
     hold_batch(first, std::min(size, count - first));
 }
@@ -151,7 +152,7 @@ json describe(const std::vector<mc_integrand>& integrands) {
   return all;
 }
 
-// `is_checked` is whether the integrand was found to be a function, which is asked once.
+// `is_checked` records whether the integrand has passed the check, which runs only once.
 Replicates run(const std::string& path, std::size_t index, const ReplicateTask& task, WorkerOptions worker,
                bool& is_checked) {
   worker.cancel = task.cancel;

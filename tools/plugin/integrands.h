@@ -1,5 +1,5 @@
 #pragma once
-/// Integrands of plugins, measured in a process of their own.
+/// Integrands of plugins, measured in a separate process.
 
 #include <converge/integral_target.h>
 #include <plugin/run_isolated.h>
@@ -10,15 +10,17 @@
 
 namespace carlo {
 
-/// The integrands of the shared object, those named or all. Their replicates run like plugins' samplers, a task at a
-/// time, under the worker's limits.
-///   throws : Error for a plugin that load_plugin refuses or that misbehaves, one without integrands, or an unknown
-///            name; when it runs, Error that says where it crashed, threw or hung, or where a few hundred points before
-///            the first replicates show that it is no function of x alone, or that its eval_many is not its eval
+/// The named integrands of the shared object, or all of them. Their replicates run like plugins' samplers, one task at
+/// a
+/// time, under the worker's limits. A few hundred points are checked before the first replicates.
+///   throws : Error for a plugin that load_plugin refuses or that misbehaves, for one without integrands, and for an
+///            unknown name. When a target runs: Error with the place of a crash, an exception or a hang. The same if
+///            the
+///            check shows that the integrand is no function of x alone, or that eval_many differs from eval.
 std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                            const WorkerOptions& worker);
 
-/// What the worker does with the requests of plugin_targets.
+/// Answers the requests of plugin_targets in the worker.
 nlohmann::json run_integrand_task(const nlohmann::json& request, CallMonitor& monitor);
 
 } // namespace carlo

@@ -80,7 +80,7 @@ void require_valid(const mc_integrand& f, std::size_t index) {
   });
 }
 
-// An array of structs that were compiled with `size` bytes each, perhaps before the last fields came.
+// Copies an array of structs of `size` bytes each. Older plugins have shorter structs without the last fields.
 template <class T> std::vector<T> copy_structs(const T* first, std::size_t count, std::size_t size) {
   std::vector<T> all(count);
   for (std::size_t i = 0; i < count; ++i) std::memcpy(&all[i], reinterpret_cast<const char*>(first) + i * size, size);
@@ -209,7 +209,7 @@ std::vector<double> PluginDistribution::breaks(int axis) const {
 }
 
 Plugin load_plugin(const std::string& path, CallMonitor& monitor) {
-  // A name without a slash would be searched for among the system's libraries.
+  // dlopen would search a name without a slash among the system's libraries.
   const std::string file = std::filesystem::absolute(path).string();
   monitor.enter("loading");
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -14,25 +14,26 @@
 
 namespace carlo {
 
-/// A sampler of a loaded shared object with its parameters set: the functions of mc_sampler, each call noted in the
-/// watch. Lives in the child only.
+/// A sampler of a loaded shared object with its parameters set. It wraps the functions of mc_sampler; the monitor
+/// records
+/// each call. It exists only in the child.
 class PluginDistribution {
  public:
-  /// throws : Error when create rejects the parameters
+  /// throws : Error if `create` rejects the parameters
   PluginDistribution(const mc_sampler& distribution, std::vector<double> parameters, CallMonitor& monitor);
 
   const mc_sampler& operator*() const { return distribution_; }
   const mc_sampler* operator->() const { return &distribution_; }
-  int coordinates() const { return coordinates_; } ///< of a point
-  int uniforms() const { return uniforms_; }       ///< of a sample
+  int coordinates() const { return coordinates_; } ///< numbers per point
+  int uniforms() const { return uniforms_; }       ///< uniform numbers per sample
 
-  int sample(const double* u, double* x) const; ///< one of mc_drawn
+  int sample(const double* u, double* x) const; ///< returns a value of mc_drawn
   double pdf(const double* x) const;
   bool invert(const double* x, double* u) const;
   double eval(const double* x) const;
   double weight(const double* u, const double* x) const;
   double probability(int outcome) const;
-  std::vector<double> breaks(int axis) const; ///< in the quantity of the axis
+  std::vector<double> breaks(int axis) const; ///< in the unit of the axis
 
  private:
   mc_sampler distribution_;
@@ -42,37 +43,43 @@ class PluginDistribution {
   CallMonitor* monitor_;
 };
 
-/// What a shared object holds; its functions and texts live as long as the process.
+/// The contents of a shared object. Its functions and strings stay valid until the process ends.
 struct Plugin {
   std::vector<mc_sampler> samplers;
   std::vector<mc_integrand> integrands;
 };
 
 /// Loads the shared object and checks its tables against the contracts of the header.
-///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, is made for a
-///            later version of the header, or holds a sampler or an integrand without a function, or with a domain, a
-///            number or a parameter that means nothing
+///   throws : Error for a file that is no shared object, lacks mc_plugin or a library that it depends on, or was made
+///   for a
+///            later version of the header. Error for a sampler or integrand without a function, or with an invalid
+///            domain,
+///            number or parameter.
 Plugin load_plugin(const std::string& path, CallMonitor& monitor);
 
-/// The sampler's domain in the words of parse_domain.
+/// The sampler's domain in the syntax of parse_domain.
 std::string domain_text(const mc_sampler& distribution);
 
-/// The plugin's sampler as the laws see it. Charts of infinite intervals are centred on samples of `seed`.
+/// The plugin's sampler as a distribution for check_laws. Charts of infinite intervals are centred on samples of
+/// `seed`.
 mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const std::string& title, std::uint64_t seed);
 
-/// Every law of check_laws that the sampler's functions allow.
+/// Checks every law of check_laws that the sampler's functions support.
 mc::Report check_plugin(const PluginDistribution& distribution, const std::string& title, const CaseOptions& options);
 
-/// One case per sampler of the shared object and per set of parameters that names only parameters of the sampler; where
-/// there is none, one at the defaults. Loading and checking run in processes of their own, see worker.h.
+/// One case for each sampler of the shared object and each parameter set that contains only parameters of this sampler.
+/// A
+/// sampler without a matching set has one case with its defaults. Loading and checking run in separate processes, see
+/// worker.h.
 ///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h
-///   names  : of those that are asked for, empty for all; the ranges of the others refuse no set
-///   throws : Error for a plugin that load_plugin refuses, that crashes or goes beyond a limit, or a set that no
-///            sampler can take
+///   names  : the requested samplers, empty for all; a set out of range of any other sampler is no error
+///   throws : Error for a plugin that load_plugin refuses, that crashes or exceeds a limit, or for a set that no
+///   sampler
+///            accepts
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets,
                        const std::vector<std::string>& names, const WorkerOptions& worker);
 
-/// What the worker does with a request of plugin_cases.
+/// Answers the requests of plugin_cases in the worker.
 nlohmann::json run_plugin_task(const nlohmann::json& request, CallMonitor& monitor);
 
 } // namespace carlo

@@ -33,8 +33,9 @@ struct Unmap {
   void operator()(CallMonitor* w) const { munmap(w, sizeof(CallMonitor)); }
 };
 
-// What the child sends: how the work ended, the length of the text, so that a cut message shows, and the text: its
-// result, or what is wrong.
+// The first byte of the child's message, which describes how the work ended. The length of the text follows, to detect
+// a
+// truncated message, and then the text: the result or the error.
 enum Ending : char { returned = 'r', refused = 'e', threw = 't', exhausted = 'm' };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -59,7 +60,7 @@ void limit(int resource, double most) {
   dup2(STDERR_FILENO, STDOUT_FILENO);
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
-  // The pipes of children beside this one would keep their ends open.
+  // Otherwise this child would keep the pipes of concurrent children open.
   if (pipe != 3) dup2(pipe, 3);
   close_range(4, ~0u, 0);
 
@@ -87,7 +88,8 @@ void limit(int resource, double most) {
   _exit(0);
 }
 
-// The orphans of the work are our children (PR_SET_CHILD_SUBREAPER), those of the killed ones become so in turn.
+// Orphans of the work become children of this process (PR_SET_CHILD_SUBREAPER). When they are killed, their children
+// follow in turn.
 void end_descendants() {
   for (;;) {
     for (const pid_t one : children(getpid())) kill(one, SIGKILL);
@@ -134,20 +136,20 @@ ResourceLimits resource_limits(std::optional<double> timeout, std::optional<doub
 
 namespace {
 
-// What one process may take four of them take four times: the memory of the child and of all that it started, looked
-// at from time to time.
+// Checks the total memory of the child and of all processes that it started: each of them may use up to the limit of a
+// single process.
 class MemoryOfAll {
  public:
   explicit MemoryOfAll(const ResourceLimits& limits) : most_(limits.gigabytes * 0x1p30) {}
 
-  // Whether it was seen beyond the limit. Pages that several share count once: a fork doubles nothing.
+  // Whether the total exceeds the limit. Pages that several processes share count once, so a fork does not double them.
   bool is_beyond() {
     const auto start = Clock::now();
     if (sanitized || start < next_) return false;
     const std::vector<pid_t> all = descendants(getpid());
     const bool beyond = resident_bytes(all) > most_ && proportional_bytes(all) > most_;
     const auto end = Clock::now();
-    // Where thousands of processes run a look takes milliseconds: a twentieth of the time at most goes into looking.
+    // With thousands of processes a check takes milliseconds. Checks use at most about a twentieth of the time.
     next_ = end + std::max<Clock::duration>(std::chrono::milliseconds(100), 20 * (end - start));
     return beyond;
   }
@@ -157,15 +159,15 @@ class MemoryOfAll {
   Clock::time_point next_{};
 };
 
-// How the child ended, as far as it was waited for.
+// State of the child when the parent stopped waiting.
 struct Ended {
   std::string message;
-  bool dead = false; // by itself, not by us
+  bool dead = false; // ended by itself
   bool given_up = false;
-  bool exhausted = false; // it was seen beyond the limit of memory
+  bool exhausted = false; // exceeded the memory limit
   int status = 0;
   double active = 0;  // seconds since the first call began
-  double stalled = 0; // since the count of calls last grew
+  double stalled = 0; // seconds since the call count last increased
 };
 
 Ended wait_for(pid_t child, int pipe, const CallMonitor& monitor, const ResourceLimits& limits, int hangup) {
@@ -174,7 +176,7 @@ Ended wait_for(pid_t child, int pipe, const CallMonitor& monitor, const Resource
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   Ended e;
   std::uint64_t calls = 0;
-  std::optional<double> began; // when the first call was seen: a busy machine may take its time until then
+  std::optional<double> began; // time of the first call: on a busy machine it may start late
   double moved = 0;
   bool open = true;
   MemoryOfAll memory(limits);

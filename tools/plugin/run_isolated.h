@@ -1,5 +1,5 @@
 #pragma once
-/// Code that is not ours, run in a process of its own.
+/// Runs external code in a separate process.
 
 #include <atomic>
 #include <cstddef>
@@ -10,12 +10,12 @@
 
 namespace carlo {
 
-/// What the foreign code is doing, in memory that both processes see, so that a crash or a hang can be placed.
+/// The current call of the external code, in memory shared by both processes, so that a crash or a hang can be located.
 class CallMonitor {
  public:
   static constexpr int max_arguments = 6;
 
-  /// Around every call: enter before, leave after it. `function` and `argument` ("u", "x", "") are string literals.
+  /// Call enter() before and leave() after every call. `function` and `argument` ("u", "x", "") are string literals.
   void enter(const char* function, const char* argument = "", const double* values = nullptr, int n = 0) {
     argument_ = argument;
     n_ = n;
@@ -23,7 +23,7 @@ class CallMonitor {
     for (int i = 0; i < n; ++i) values_[i] = values[i];
     function_.store(function, std::memory_order_relaxed);
   }
-  /// Of an answer that comes in parts: how many of its numbers have come.
+  /// For an answer that arrives in parts: how many of its numbers have arrived.
   void answered(std::size_t numbers, std::size_t wanted) {
     answered_ = numbers;
     wanted_ = wanted;
@@ -35,8 +35,9 @@ class CallMonitor {
 
   std::uint64_t calls() const { return calls_.load(std::memory_order_relaxed); }
   bool inside() const { return function_.load(std::memory_order_relaxed) != nullptr; }
-  /// " in sample at u = (0.25, 0.5)", with ", where 2 of 3 numbers have come (doubles of 8 bytes)" where a part of the
-  /// answer has; outside of any call " after 12 calls".
+  /// " in sample at u = (0.25, 0.5)". If a part of the answer has arrived, also ", where 2 of 3 numbers have come
+  /// (doubles
+  /// of 8 bytes)". Outside of any call " after 12 calls".
   std::string where() const;
 
  private:
@@ -48,25 +49,27 @@ class CallMonitor {
   double values_[max_arguments] = {};
 };
 
-/// What foreign code may use before it is ended.
+/// Resource limits of external code. Exceeding one ends it.
 struct ResourceLimits {
   double seconds = 60;  ///< wall-clock
-  double gigabytes = 4; ///< of 2^30 bytes, see run_isolated; not under a sanitizer, which reserves terabytes
-  int files = 256;      ///< open at once
-  std::string reduce_option = "--samples"; ///< the option of the command that makes the work smaller
+  double gigabytes = 4; ///< in units of 2^30 bytes, see run_isolated; ignored under a sanitizer, which reserves
+                        ///< terabytes
+  int files = 256;      ///< open at the same time
+  std::string reduce_option = "--samples"; ///< the command-line option that reduces the amount of work
 };
 
-/// Limits with what --timeout and --memory give, where they are given.
-///   throws : Error where they mean nothing, and for either where no foreign code is there that it could limit
+/// The default limits, replaced by --timeout and --memory if given.
+///   throws : Error for invalid values, and for either option without external code
 ResourceLimits resource_limits(std::optional<double> timeout, std::optional<double> memory, bool has_foreign_code);
 
-/// Runs work in a forked child and returns what it returned. Its standard output goes to standard error. When it
-/// returns, the child and every process that it started have ended. The limit of memory is one of the address space of
-/// each process, and one of the memory that all of them hold together, looked at ten times a second.
+/// Runs `work` in a forked child and returns its result. The child's standard output goes to standard error. On return,
+/// the child and every process that it started have ended. The memory limit applies to the address space of each
+/// process,
+/// and to the total memory of all of them, which is checked ten times a second.
 ///   needs  : a process with a single thread, see worker.h
-///   hangup : a descriptor whose other end is open as long as anyone waits for the result; closed, the work is ended
-///   throws : Error "who: ..." in one line when the work throws, crashes, ends the process or goes beyond a limit,
-///            saying where
+///   hangup : a descriptor; the work is ended when its other end is closed, since nothing waits for the result then
+///   throws : Error "who: ..." in one line with the place, if the work throws, crashes, ends the process or exceeds a
+///   limit
 std::string run_isolated(const std::string& who, const ResourceLimits& limits, int hangup,
                          const std::function<std::string(CallMonitor&)>& work);
 

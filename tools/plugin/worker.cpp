@@ -28,7 +28,7 @@ bool send(int file, const json& message) {
   return write_all(file, &size, sizeof size) && write_all(file, bytes.data(), bytes.size());
 }
 
-// Appends what is there. False at the end.
+// Appends the available bytes. Returns false at the end of the file.
 bool read_some(int file, Bytes& bytes) {
   std::uint8_t buffer[1 << 16];
   const ssize_t n = read(file, buffer, sizeof buffer);
@@ -62,7 +62,7 @@ json call_worker(json request, const WorkerOptions& options) {
   for (bool open = true; open && !is_whole(answer);) {
     if (!cancelled && options.cancel && *options.cancel) {
       cancelled = true;
-      worker.close_input(); // it ends what it started, then itself
+      worker.close_input(); // the worker then ends its processes and exits
     }
     pollfd p{worker.output(), POLLIN, 0};
     if (poll(&p, 1, 50) > 0) open = read_some(worker.output(), answer);

@@ -28,13 +28,15 @@ struct Pipe {
   int read = -1, write = -1;
   Pipe() {
     int ends[2];
-    mc::require(pipe2(ends, O_CLOEXEC) == 0, "no pipe: {}", std::strerror(errno)); // no other child inherits it
+    mc::require(pipe2(ends, O_CLOEXEC) == 0, "no pipe: {}",
+                std::strerror(errno)); // close-on-exec, so that no other child
+                                       // inherits the pipe
     read = ends[0];
     write = ends[1];
   }
 };
 
-// posix_spawn's two records, which must be destroyed.
+// Owns the two attribute objects of posix_spawn.
 struct Setup {
   posix_spawn_file_actions_t files;
   posix_spawnattr_t attributes;
@@ -115,7 +117,7 @@ void ChildProcess::close_input() {
 
 bool ChildProcess::has_output() const {
   pollfd p{output_, POLLIN, 0};
-  constexpr int interval = 50; // ms between two looks at the program
+  constexpr int interval = 50; // ms between two checks of the program
   while (poll(&p, 1, interval) <= 0) {
     siginfo_t info{};
     const bool ended =

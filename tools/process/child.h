@@ -1,5 +1,5 @@
 #pragma once
-/// Other programs, started without a shell.
+/// Starts other programs without a shell.
 
 #include <cstddef>
 #include <optional>
@@ -11,32 +11,33 @@
 namespace carlo {
 
 struct LaunchOptions {
-  std::vector<std::string> arguments; ///< the program first; without a slash it is looked for in PATH
-  std::string folder = {};            ///< to work in; empty: ours
-  std::string output_file = {};       ///< what the program prints on either stream goes there; empty: to our streams
+  std::vector<std::string> arguments; ///< the program first; without a slash it is searched in PATH
+  std::string folder = {};            ///< working directory; empty: the current one
+  std::string output_file = {};       ///< file for both output streams; empty: output() is a pipe
 };
 
-/// A running program in a process group of its own, which ends with the object. Its input and output are pipes to us
-/// unless the output goes to a file; signals are as at the start of a program.
+/// A running program in its own process group. The destructor ends the whole group. Standard input and output are pipes
+/// unless the output goes to a file. Signal handlers and masks are reset to their defaults.
 class ChildProcess {
  public:
-  /// throws : Error when the program cannot be started, "cannot start 'gnuplot': No such file or directory"
+  /// throws : Error if the program cannot be started, "cannot start 'gnuplot': No such file or directory"
   explicit ChildProcess(const LaunchOptions& launch);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  int input() const { return input_; }   ///< what we write to
-  int output() const { return output_; } ///< what we read from; -1 where the output goes to a file
+  int input() const { return input_; }   ///< write end of the program's standard input
+  int output() const { return output_; } ///< read end of the program's standard output; -1 if the output goes to a file
   void close_input();
-  /// Waits until there is something to read or nobody is left to write it. Returns false when the program itself has
-  /// ended and left nothing, though a process that it started may still hold its end of the pipe.
+  /// Waits for output or for the end of the pipe. Returns false if the program has ended without further output, even
+  /// if
+  /// a process that it started still holds the pipe open.
   bool has_output() const;
-  /// Bytes of its output that can be read without waiting.
+  /// Number of output bytes that can be read without waiting.
   std::size_t available_bytes() const;
-  /// Its exit code once it has ended; 128 + the number of the signal that ended it.
+  /// Waits for the end of the program. Returns its exit code, or 128 + the number of the signal that ended it.
   int wait();
-  /// The most memory that it, or any that it waited for, held at once [bytes]; 0 until wait() has returned.
+  /// Peak memory of the program and of any process that it waited for [bytes]: the largest single one. 0 before wait().
   double peak_memory() const { return peak_; }
 
  private:
@@ -45,10 +46,10 @@ class ChildProcess {
   int input_ = -1, output_ = -1;
 };
 
-/// Runs the program to its end with an empty input. Returns its exit code; nothing when there is no such program.
+/// Runs the program to its end with an empty input. Returns its exit code, or nothing if the program does not exist.
 std::optional<int> run_program(const LaunchOptions& launch);
 
-/// Writes all of it. Returns false when nobody reads any more.
+/// Writes all bytes. Returns false if the read end is closed.
 bool write_all(int file, const void* bytes, std::size_t size);
 
 } // namespace carlo

@@ -1,5 +1,5 @@
 #pragma once
-/// The processes that came of one, and the memory that they hold together, as /proc tells. Source: proc(5)
+/// The descendants of a process and their memory, from /proc. Source: proc(5)
 
 #include <algorithm>
 #include <cctype>
@@ -18,7 +18,7 @@ struct Process {
   pid_t id, parent;
 };
 
-/// All that run. One that ends meanwhile may have no parent, -1.
+/// All running processes. A process that ends during the call may have the parent -1.
 inline std::vector<Process> all_processes() {
   std::vector<Process> all;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -26,8 +26,8 @@ inline std::vector<Process> all_processes() {
     if (!std::isdigit(static_cast<unsigned char>(name[0]))) continue;
     std::ifstream in(entry.path() / "stat");
     std::string stat;
-    std::getline(in, stat, '\0');                 // its name may hold ends of lines
-    const std::size_t name_end = stat.rfind(')'); // and brackets
+    std::getline(in, stat, '\0');                 // the name may contain line ends
+    const std::size_t name_end = stat.rfind(')'); // and parentheses
     long parent = -1;
     if (name_end != std::string::npos) std::sscanf(stat.c_str() + name_end, ") %*c %ld", &parent);
     all.push_back({static_cast<pid_t>(std::stol(name)), static_cast<pid_t>(parent)});
@@ -35,7 +35,7 @@ inline std::vector<Process> all_processes() {
   return all;
 }
 
-/// The children of a process; those of its ended descendants too where they become its own (PR_SET_CHILD_SUBREAPER).
+/// The children of a process. They include orphans that the process adopted (PR_SET_CHILD_SUBREAPER).
 inline std::vector<pid_t> children(pid_t of) {
   std::vector<pid_t> found;
   for (const Process& p : all_processes())
@@ -43,20 +43,22 @@ inline std::vector<pid_t> children(pid_t of) {
   return found;
 }
 
-/// Its children, theirs and so on.
+/// Its children, their children, and so on.
 inline std::vector<pid_t> descendants(pid_t of) {
   const std::vector<Process> all = all_processes();
   std::vector<pid_t> found = {of};
   for (std::size_t i = 0; i < found.size(); ++i) {
     const pid_t parent = found[i];
-    for (const Process& p : all) // a number that is given anew while we look could close a circle
+    for (const Process& p : all) // a process id reused during the search could form a cycle
       if (p.parent == parent && std::find(found.begin(), found.end(), p.id) == found.end()) found.push_back(p.id);
   }
   found.erase(found.begin());
   return found;
 }
 
-/// Bytes of memory that the processes hold. What several of them share counts for each: it costs one small read each.
+/// Resident memory of the processes [bytes]. Pages that several processes share count for each of them. It costs one
+/// small
+/// read for each process.
 inline double resident_bytes(const std::vector<pid_t>& ids) {
   double pages = 0;
   for (const pid_t id : ids) {
@@ -67,8 +69,9 @@ inline double resident_bytes(const std::vector<pid_t>& ids) {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// Bytes of memory that the processes hold, each its part of what it shares with others: it costs a walk over all their
-/// pages. Of one that does not tell, what is resident.
+/// Proportional memory of the processes [bytes]: each page is divided by the number of processes that share it. The
+/// kernel
+/// walks over all their pages. A process that does not report this value counts with its resident memory.
 inline double proportional_bytes(const std::vector<pid_t>& ids) {
   double bytes = 0;
   for (const pid_t id : ids) {

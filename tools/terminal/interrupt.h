@@ -6,8 +6,9 @@
 
 namespace carlo {
 
-/// Turns Ctrl-C, and the SIGTERM of timeout and batch queues, into a flag while it lives. A second Ctrl-C ends the
-/// program at once; a second SIGTERM does nothing, since timeout sends two.
+/// During its lifetime, Ctrl-C (SIGINT) and the SIGTERM of timeout and batch queues set a flag. A second Ctrl-C ends
+/// the
+/// program immediately. A second SIGTERM has no effect, since timeout sends two.
 class Interrupt {
  public:
   Interrupt() : old_interrupt_(std::signal(SIGINT, raise)), old_terminate_(std::signal(SIGTERM, raise)) {
@@ -21,7 +22,7 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   const std::atomic<bool>* flag() const { return &raised_; }
-  /// Whether it was SIGTERM that raised it.
+  /// Whether SIGTERM set the flag.
   static bool is_terminated() { return terminated_; }
 
  private:

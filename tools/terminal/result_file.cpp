@@ -18,7 +18,8 @@ ResultFile::ResultFile(std::string name) : name_(std::move(name)) {
   if (!name_.empty() && name_ != "-") mc::require_writable(name_);
   if (name_ != "-") return;
   std::fflush(stdout);
-  output_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1); // programs that are started get none of it
+  output_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1); // close-on-exec, so that child processes do not
+                                                                      // inherit it
   mc::require(output_ >= 0 && dup2(STDERR_FILENO, STDOUT_FILENO) >= 0, "cannot write to standard output: {}",
               std::strerror(errno));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The file that an option like --json names, which may be standard output.
+/// The output file of an option like --json, which may be standard output.
 
 #include <string>
 #include <string_view>
