@@ -10,7 +10,7 @@ BEGIN {
   doc["to_unit"] = "The inverse of from_unit().";
   doc["from_unit"] = "Maps a point of the unit cube to the domain.";
   doc["jacobian"] = "Measure of the domain per volume of the unit cube at this point.";
-  doc["measure"] = "Total measure of the domain: length, area, solid angle or volume.";
+  doc["measure"] = "Kind of the measure: length, area, solid angle, volume or count.";
   doc["contains"] = "Whether the domain contains the point.";
   doc["chart_axes"] = "Names of the coordinates of the chart.";
   doc["Scalar"] = "The floating-point type.";
@@ -20,6 +20,9 @@ BEGIN {
   doc["dim"] = "Number of dimensions.";
   doc["seed"] = "Seed of the randomisation; each seed gives an independent one.";
   doc["bits"] = "The coordinate as an integer: its leading binary digits.";
+  doc["sample_index"] = "Maps a uniform number to an outcome, with its probability and the remapped number.";
+  doc["pmf"] = "Probability of an outcome.";
+  doc["size"] = "Number of outcomes or elements.";
   # librender/render/{bsdf,light,shape,texture}/concept.h
   doc["eval"] = "Value of the BSDF without the cosine [1/sr].";
   doc["is_delta"] = "Whether all scattered light leaves in directions of zero solid angle.";
@@ -27,15 +30,29 @@ BEGIN {
   doc["is_near_specular"] = "Whether the lobe is so narrow that light sampling hardly contributes.";
   doc["casts_caustics"] = "Whether light that leaves this surface may form caustics.";
   doc["transmits"] = "Whether light passes to the other side.";
-  doc["albedo"] = "Reflectance per colour channel, for denoising and layers.";
-  doc["eta"] = "Ratio of the indices of refraction, inside over outside.";
+  doc["albedo"] = "Largest share of the light that is scattered, over the colour channels.";
+  doc["eta"] = "Index of refraction on the side of wi over that on the side of wo; 1 for reflection.";
   doc["Le"] = "Emitted radiance.";
   doc["is_sampled"] = "Whether direct lighting samples this light.";
   doc["is_infinite"] = "Whether the light is infinitely far away.";
   doc["irradiance"] = "Irradiance from this light.";
   doc["surface_point"] = "Position, normals and texture coordinates at the hit.";
   doc["area"] = "Surface area.";
+  doc["box"] = "Axis-aligned bounds.";
+  doc["uv"] = "Texture coordinates.";
+  doc["has_uv"] = "Whether the shape has texture coordinates.";
+  doc["discard_uvs"] = "Frees the texture coordinates, where no texture needs them.";
+  doc["discard_sampling_table"] = "Frees the tables of area sampling, where the shape emits no light.";
+  doc["sample_area"] = "Samples a surface point uniformly by area.";
+  doc["sample_direction"] = "Samples a direction from a reference point to the shape; none where it is not visible.";
+  doc["projected_solid_angle_bound"] = "Upper bound of the projected solid angle of the shape at a reference point [sr].";
+  doc["require_reflectance"] = "Throws Error that names the place, unless all values lie in [0, 1].";
 }
+
+# Doxygen takes the parameters of a requires expression for variables.
+/requires\(/ { sub(/requires\([^()]*\)/, "requires"); if (sub(/requires\(.*/, "requires")) in_parameters = 1 }
+in_parameters && /\) \{$/ && !/requires/ { in_parameters = 0; print "{"; next }
+in_parameters && !/requires/ { next }
 
 # A line that only opens a template belongs to the next line.
 /^ +template <.*> *$/ { held = held $0 "\n"; next }
