@@ -77,11 +77,16 @@ std::string error_text(double e) {
 }
 
 // p belongs to statistical tests: a broken law is certain.
+std::string p_text(const mc::Report& r) {
+  if (!r.is_statistical()) return "-";
+  return r.p() < 1e-300 ? "<1e-300" : fmt::format("{:.2g}", r.p());
+}
+
 std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
   const std::string ns = r.ns_per_sample > 0 ? fmt::format("{:.1f}", r.ns_per_sample) : "-";
-  const std::string p = r.is_statistical() ? fmt::format("{:.2g}", r.p()) : "-";
   return fmt::format("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7.2f}\n", c.label(), width, c.scalar,
-                     name(r.verdict()), p, error_text(r.detectable), error_text(r.detectable_cell), ns, r.seconds);
+                     name(r.verdict()), p_text(r), error_text(r.detectable), error_text(r.detectable_cell), ns,
+                     r.seconds);
 }
 
 // The user's own code or samples, checked in place of the catalogue.

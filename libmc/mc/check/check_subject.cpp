@@ -282,6 +282,12 @@ void prepend_finding(std::vector<Check>& checks, const std::string& finding) {
   prepend([](const Check& c) { return c.p && *c.p < 1e-9; });
 }
 
+// Names the worst region where the mass shows that the samples are wrong, not the density.
+void place_wrong_samples(std::vector<Check>& checks, const std::string& region) {
+  for (Check& c : checks)
+    if (c.name == "mass" && c.fault == Fault::shape && !region.empty()) c.detail = region + "; " + c.detail;
+}
+
 // If a rotation about the pole explains the counts, reports it as the likely cause.
 void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const Layout& layout, const Pilot& pilot,
                         std::vector<Check>& checks) {
@@ -352,7 +358,9 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   };
   judge_intervals(AxisInterval::Kind::atom);
   CellTests tests = judge_counts(s, layout, counts.cells, counts.stats, options.alpha);
-  prepend_finding(tests.checks, describe_worst_region(s, layout.boxes, layout.cells));
+  const std::string region = describe_worst_region(s, layout.boxes, layout.cells);
+  place_wrong_samples(report.checks, region);
+  prepend_finding(tests.checks, region);
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
   judge_intervals(AxisInterval::Kind::gap); // after the shape tests, which also find wide gaps

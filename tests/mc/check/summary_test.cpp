@@ -45,7 +45,7 @@ TEST(Summary, WorstRegion_JoinsCellsAndNeedsFourSigma) {
             "region x 0 to 4, about 2.00, contains 2400 samples, 2000.0 expected (z = 12.6)");
   EXPECT_EQ(worst(1200, 1000, 900, 900), "cell x 0 to 2, about 1.00, contains 1200 samples, 1000.0 expected (z = 7.3)");
   EXPECT_EQ(worst(1010, 990, 1010, 990), "");
-  EXPECT_EQ(describe_worst_region({}, {}, {cell(0.5, 200), cell(0.5, 100)}),
+  EXPECT_EQ(mc::describe_worst_region({}, {}, {cell(0.5, 200), cell(0.5, 100)}),
             "outcome 0 has 200 samples, 150.0 expected (z = 5.8)");
 }
 

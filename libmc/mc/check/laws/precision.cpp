@@ -58,7 +58,7 @@ std::vector<Check> precision_law(const AnyDistribution& s, const LawOptions& opt
     const double wrong = std::abs(static_cast<double>(claimed / density) - 1) / s.epsilon();
     pdf.note(wrong, [&] {
       return fmt::format("pdf is {:.17g}, should be {:.17g}, at x = {}", claimed, static_cast<double>(density),
-                         format_x(s, drawn->x));
+                         describe_x(s, drawn->x));
     });
   }
   return {sample.check(), pdf.check()};

@@ -16,9 +16,9 @@ std::vector<Check> support_law(const AnyDistribution& s, const LawOptions& optio
     if (!std::all_of(x.begin(), x.end(), [](double one) { return std::isfinite(one); })) continue;
     const double f = s.eval(x), density = s.pdf(x);
     sign.note(f >= 0 && std::isfinite(f) ? 0 : 1,
-              [&] { return fmt::format("eval is {:.9g}, should be finite and >= 0, at x = {}", f, format_x(s, x)); });
+              [&] { return fmt::format("eval is {:.9g}, should be finite and >= 0, at x = {}", f, describe_x(s, x)); });
     support.note(f > 0 && !(density > 0) ? 1 : 0, [&] {
-      return fmt::format("pdf is {:.9g}, should be > 0 since eval is {:.9g}, at x = {}", density, f, format_x(s, x));
+      return fmt::format("pdf is {:.9g}, should be > 0 since eval is {:.9g}, at x = {}", density, f, describe_x(s, x));
     });
   }
   return {sign.check(), support.check()};

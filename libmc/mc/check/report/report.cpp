@@ -125,8 +125,8 @@ std::string describe_others(const Report& r, const Check& leading) {
   std::string text;
   for (const Check& c : r.checks) {
     if (c.verdict == Verdict::pass || &c == &leading) continue;
-    text += fmt::format("\n  {} {}{}{}{}", c.name, c.verdict == Verdict::fail ? "fails" : "is inconclusive", measure(c),
-                        c.detail.empty() ? "" : ": ", c.detail);
+    text += fmt::format("\n  {}: {}{}{}{}", c.verdict == Verdict::fail ? "also fails" : "inconclusive", c.name,
+                        measure(c), c.detail.empty() ? "" : ": ", c.detail);
   }
   return text;
 }

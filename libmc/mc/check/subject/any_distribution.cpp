@@ -73,6 +73,15 @@ std::string describe_angles(const std::vector<Axis>& axes, const Subject::Coordi
   return text;
 }
 
+} // namespace
+
+std::string describe_x(const AnyDistribution& s, const PointArray& x) {
+  const std::string angles = s.domain.to_unit ? describe_angles(s.domain.axes, s.domain.to_unit(x)) : "";
+  return format_x(s, x) + (angles.empty() ? "" : " [" + angles + "]");
+}
+
+namespace {
+
 // Returns ", of length 1 + 1e-9" for a point that should be a direction, because its digits do not show the length.
 std::string describe_length(const AnyDistribution& s, const PointArray& x) {
   if (s.domain.point_size != 3 || s.domain.dim != 2) return {};
@@ -89,9 +98,7 @@ std::string describe_drawn(const AnyDistribution& s, const AnyDistribution::Samp
   std::string text;
   if (p.draw.kind == Kind::atom)
     return fmt::format("outcome {}, {} = {:.9g}", drawn.atom, s.domain.dim > 0 ? "probability" : "pmf", p.pdf);
-  text = "x = " + format_x(s, drawn.x);
-  const std::string angles = p.draw.kind == Kind::point ? describe_angles(s.domain.axes, p.draw.v) : "";
-  if (!angles.empty()) text += " [" + angles + "]";
+  text = "x = " + (p.draw.kind == Kind::point ? describe_x(s, drawn.x) : format_x(s, drawn.x));
   if (p.draw.kind == Kind::outside) text += describe_length(s, drawn.x) + describe_float_rounding(s, drawn.x);
   if (p.draw.kind != Kind::point) return text;
   text += fmt::format(", pdf = {:.9g}", p.pdf);

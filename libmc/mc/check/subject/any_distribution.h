@@ -158,6 +158,8 @@ ChartSample to_chart(const AnyDistribution& distribution, const std::optional<An
 std::string format_u(const AnyDistribution& distribution, const AnyDistribution::Uniforms& u);
 /// Returns the coordinates of x with all digits, for example "(0.25, 0.5)".
 std::string format_x(const AnyDistribution& distribution, const PointArray& x);
+/// Returns the coordinates of x with its radii and angles, "(0.6, 0, 0.8) [theta 36.87 deg, phi 0 deg]".
+std::string describe_x(const AnyDistribution& distribution, const PointArray& x);
 /// Returns "u = 0.5, x = 2, pdf = 1" or "u = 0.5, sample fails".
 std::string describe_sample(const AnyDistribution& distribution, const AnyDistribution::Uniforms& u);
 

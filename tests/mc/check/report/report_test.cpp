@@ -86,8 +86,8 @@ TEST(Report, TextFoldsTheOtherChecks) {
   EXPECT_THAT(r.to_string(mc::ReportText::brief, "; --verbose shows them"),
               testing::EndsWith("\n  2 more checks fail, 1 is inconclusive; --verbose shows them"));
   const std::string full = r.to_string(mc::ReportText::full, "; --verbose shows them");
-  EXPECT_THAT(full, testing::AllOf(testing::HasSubstr("\n  KS, x fails (p = 0.0001): D is off"),
-                                   testing::HasSubstr("\n  resolution, x is inconclusive"),
+  EXPECT_THAT(full, testing::AllOf(testing::HasSubstr("\n  also fails: KS, x (p = 0.0001): D is off"),
+                                   testing::HasSubstr("\n  inconclusive: resolution, x: few values"),
                                    testing::Not(testing::HasSubstr("--verbose"))));
 }
 
