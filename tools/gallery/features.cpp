@@ -67,8 +67,10 @@ std::vector<FeatureUse> required_features() {
 
 constexpr const char* introduction = R"(# The gallery
 
-`carlo gallery -o DIR` renders these scenes and writes a page of them; `carlo gallery NAME -o DIR` and
-`carlo render NAME` take one. Where no strategy is named it is `mis+lt`. `carlo gallery --table` prints this
+![The scenes of the gallery](../../notebooks-data/pictures/gallery.png)
+
+`carlo gallery -o DIR` renders these scenes and writes a page. `carlo gallery NAME -o DIR` and `carlo render NAME`
+render a single scene. The strategy is `mis+lt` unless the table names another. `carlo gallery --table` prints this
 text.
 
 )";
@@ -95,27 +97,13 @@ std::vector<Feature> features_of(const GalleryScene& scene) {
   return features;
 }
 
-std::string features_text() {
-  std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
-  for (const auto& [feature, by] : required_features()) {
-    const std::string kind = feature.substr(0, feature.find(' '));
-    const std::string scenes = by.size() == 1 ? fmt::format("`{}`", by[0]) : fmt::format("{}", by.size());
-    if (kinds.empty() || kinds.back().first != kind) kinds.push_back({kind, {}});
-    kinds.back().second.push_back(feature == kind ? scenes : feature.substr(kind.size() + 1) + " " + scenes);
-  }
-  std::string text =
-      fmt::format("| feature | how many of {} scenes require it, or which one |\n|---|---|\n", gallery().size());
-  for (const auto& [kind, features] : kinds) text += fmt::format("| {} | {} |\n", kind, fmt::join(features, ", "));
-  return text;
-}
-
 std::string gallery_text() {
   std::string text = introduction;
   text += "| scene | picture | strategy | source |\n|---|---|---|---|\n";
   for (const GalleryScene& scene : gallery())
     text += fmt::format("| [{}]({}.xml) | {} | {} | {} |\n", scene.name, scene.file.empty() ? scene.name : scene.file,
                         scene.title, scene.strategy, scene.source);
-  text += "\n## Which scene requires which feature\n\nA feature that no scene requires does not belong here.\n\n"
+  text += "\n## Which scene requires which feature\n\nlibrender supports a feature only if a scene requires it.\n\n"
           "| feature | required by |\n|---|---|\n";
   for (auto& [feature, by] : required_features()) {
     constexpr std::size_t shown = 6;

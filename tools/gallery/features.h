@@ -19,9 +19,6 @@ std::vector<Feature> all_features();
 ///   throws : Error if its file cannot be read
 std::vector<Feature> features_of(const GalleryScene& scene);
 
-/// A table of the kinds of features: each with the number of scenes that require it, or with the only such scene.
-std::string features_text();
-
 /// Markdown with the scenes, their sources, and the table of features with the scenes that require them.
 std::string gallery_text();
 

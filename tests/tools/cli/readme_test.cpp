@@ -1,4 +1,4 @@
-// What the README shows is what its commands print, but for what the clock says.
+// The output shown in the README is the output of its commands, except for timings.
 
 #include <tools/run_carlo.h>
 
@@ -15,8 +15,8 @@
 
 namespace {
 
-// Durations, rates, the last two columns (ns per sample, seconds) of the table of verdicts, and how noisy a picture is
-// become one word each.
+// Replaces timings by one word each: durations, rates, the last two columns (ns per sample, seconds) of the table of
+// verdicts, and the noise of a picture.
 std::string without_times(const std::string& line) {
   static const std::regex times(R"([0-9.]+ (ms|s|min)\b)"), rates(R"([0-9.]+ [kM]?(samples|rays)/s)"),
       columns(R"((%|-) +[0-9.-]+ +[0-9.]+$)"), noise(R"(error [0-9.]+ % \(worst block [0-9.]+ %\))");
@@ -69,7 +69,12 @@ bool matches(const std::vector<std::string>& shown, const std::vector<std::strin
 struct Readme : support::ScratchTest {};
 
 TEST_F(Readme, ShownOutputMatchesTheCommands) {
-  const std::vector<ReadmeCommand> all = commands(mc::read_file(MC_SOURCE_DIR "/README.md"));
+  std::vector<ReadmeCommand> all;
+  std::vector<std::filesystem::path> pages = {MC_SOURCE_DIR "/README.md"};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(MC_SOURCE_DIR "/docs"))
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  for (const std::filesystem::path& page : pages)
+    for (ReadmeCommand& command : commands(mc::read_file(page.string()))) all.push_back(std::move(command));
   EXPECT_GE(all.size(), 8u);
   std::filesystem::create_directory_symlink(MC_SOURCE_DIR "/librender", folder / "librender");
   for (const ReadmeCommand& shown : all) {

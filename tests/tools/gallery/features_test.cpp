@@ -28,13 +28,4 @@ TEST(GalleryFeatures, TableIsUpToDate) {
       << "run: carlo gallery --table > librender/scenes/GALLERY.md";
 }
 
-TEST(GalleryFeatures, AreShownInTheReadme) {
-  const std::string table = carlo::features_text();
-  EXPECT_NE(mc::read_file(MC_SOURCE_DIR "/README.md").find("\n\n" + table + "\n"), std::string::npos)
-      << "README.md must hold:\n"
-      << table;
-  for (const carlo::Feature& f : carlo::all_features())
-    EXPECT_THAT(table, testing::HasSubstr(f.substr(f.find(' ') + 1))) << f;
-}
-
 } // namespace
