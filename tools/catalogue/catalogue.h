@@ -1,14 +1,15 @@
 #pragma once
 /// Every distribution of libmc and librender with the parameters for which it is checked.
 ///
-/// A family adds its distributions in its own file, one line for each case:
+/// A family adds its distributions in its own file. Each line adds one distribution with its parameters:
 ///   void add_spheres(Catalogue& c) {
 ///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; });
 ///   }
-/// To add a family, declare this function below, call it in catalogue.cpp, name the file in CMakeLists.txt, and add a
-/// sentence to descriptions.cpp. add_warp of warp_case.h adds a float and a double case for the line, add_bsdf of
-/// bsdf_case.h one case for each direction. The test catalogue_test.cpp fails if a warp, table, BSDF, shape, filter or
-/// camera of the headers is missing from the list or has no description.
+///
+/// To add a family, declare this function below, call it in catalogue.cpp, and name the file in CMakeLists.txt. Each
+/// distribution needs a sentence in descriptions.cpp. add_warp of warp_case.h adds a float and a double case for the
+/// line, add_bsdf of bsdf_case.h one case for each direction. The test catalogue_test.cpp fails if a warp, table, BSDF,
+/// shape, filter or camera of the headers is not listed or not described.
 
 #include <mc/check/check_subject.h>
 

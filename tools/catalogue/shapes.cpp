@@ -62,10 +62,10 @@ void add_directions(Catalogue& c, const std::string& name, const std::string& pa
 
 // Adds the points that a shape samples from ref, checked against the density of the direction to a point, converted to
 // area of the domain.
-//   domain  : contains the images of all points
-//   image   : maps a SurfacePoint to its point of the domain
-//   surface : maps a point of the domain to the SurfacePoint
-//   scale   : area of the shape per area of the domain
+//   domain  : contains the images of all points.
+//   image   : maps a SurfacePoint to its point of the domain.
+//   surface : maps a point of the domain to the SurfacePoint.
+//   scale   : area of the shape per area of the domain.
 template <class D, class Image, class Surface>
 void add_points(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
                 const Vec3& ref, const D& domain, const Image& image, const Surface& surface, double scale,

@@ -34,7 +34,7 @@ struct IntegralTarget {
 };
 
 /// A target that runs in this process.
-///   throws : `run` throws the errors of `evaluate`
+///   throws : `run` throws the errors of `evaluate`.
 IntegralTarget in_process_target(UnitCubeIntegral integral);
 
 /// Throws Error for an expression that uses none of the variables of its box, as in "x=0:1,y=-1:2". Every method

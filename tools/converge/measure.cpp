@@ -58,8 +58,8 @@ double error_of_mean(const std::vector<double>& x) {
   return std::ldexp(std::sqrt(s.squares() / (n - 1) / n), s.exponent);
 }
 
-// The mean kurtosis of the errors over the sets of replicates from N / 16 to 16 N that exist. A single set often
-// misses a long tail, so several sets are averaged.
+// The mean kurtosis of the errors over the sets of replicates from N / 16 to 16 N that exist. A single set often misses
+// a long tail, so several sets are averaged.
 double mean_kurtosis(const std::vector<Replicates>& all, std::size_t at, double truth) {
   constexpr std::size_t beside = 4;
   double sum = 0, count = 0;
@@ -128,8 +128,8 @@ bool reaches_goals(const ConvergenceCurve& curve, const UnitCubeIntegral& e, con
   return std::hypot(off, std::sqrt(n - 1) * credible_error_of_mean(curve)) < 0.7 * o.error_goal;
 }
 
-// Runs the replicates only; evaluate_curve computes the errors once the truth is available. An interrupt discards
-// only the current N.
+// Runs the replicates only; evaluate_curve computes the errors once the truth is available. An interrupt discards only
+// the current N.
 ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& method, double seconds,
                            const MeasureOptions& o, const std::function<void(std::uint64_t n)>& progress) {
   ConvergenceCurve curve;
@@ -226,8 +226,7 @@ IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOption
 
 // The curve with the smallest conservative standard error at its largest N, among the methods that do not adapt. An
 // interrupted curve with identical replicates is excluded: a few points may all miss the support of the integrand. If
-// no
-// replicates have ever differed, it is the curve with the largest N.
+// no replicates have ever differed, it is the curve with the largest N.
 const ConvergenceCurve* most_precise_curve(const std::vector<ConvergenceCurve>& curves) {
   const ConvergenceCurve* best = nullptr;
   const auto rank = [](const ConvergenceCurve& c) {
@@ -287,10 +286,8 @@ std::string wrong_truth_warning(const UnitCubeIntegral& e, const Measurement& m)
 }
 
 // Whether one replicate holds over half of the squared deviations from the mean, and fewer than one in a million sets
-// of
-// normal replicates would. The largest share s of R deviations is distributed as t^2 / (R - 2 + t^2) (R - 1) / R, with
-// t
-// of R - 2 degrees of freedom.
+// of normal replicates would. The largest share s of R deviations is distributed as t^2 / (R - 2 + t^2) (R - 1) / R,
+// with t of R - 2 degrees of freedom.
 bool one_dominates(const std::vector<double>& values) {
   const ScaledValues s(values);
   const double mean = s.mean(), sum = s.squares();
@@ -367,8 +364,7 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
   }
   m.truth = target.integral.truth;
   // After an interrupt the existing replicates may not suffice for a truth. Then no error is reported, and the
-  // integrand
-  // is not blamed.
+  // integrand is not blamed.
   if (m.interrupted && !known && (!most_precise_curve(m.curves) || all_zero(m.curves))) m.curves.clear();
   if (m.curves.empty()) return m;
   if (!known) std::tie(m.truth, m.truth_error) = estimate_truth(target, m.curves, o);

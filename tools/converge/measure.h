@@ -66,18 +66,14 @@ struct Measurement {
 
 /// Runs every method with N = 16, 32, ... max_n evaluations, starting at the method's smallest possible N.
 ///   truth  : if the integral states none, the mean of 128 additional replicates of the method with the smallest error
-///   at
-///            its largest N. The standard error of this mean is under a tenth of the smallest reported error, and
-///            widens
-///            every interval. After an interrupt the mean is over the existing replicates. An error that is not
+///            at its largest N. The standard error of this mean is under a tenth of the smallest reported error, and
+///            widens every interval. After an interrupt the mean is over the existing replicates. An error that is not
 ///            significantly larger than the error of the truth is reported as a bound and enters no slope.
 ///   doubt  : a stated truth is doubted if the means of the unbiased methods agree with each other but differ from it
-///   by
-///            six standard errors. An estimated truth is doubted if one replicate holds over half of the variance in a
-///            quarter of all sets of replicates at the larger N.
+///            by six standard errors. An estimated truth is doubted if one replicate holds over half of the variance in
+///            a quarter of all sets of replicates at the larger N.
 ///   throws : Error for an integrand that is not finite somewhere, for one of unknown truth that is 0 at every point,
-///   and
-///            where refuse_underflow throws
+///            and where refuse_underflow throws.
 Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,
                                 const MeasureOptions& options);
 

@@ -27,8 +27,7 @@ PageHeader trade_header(const std::string& command);
 
 /// Writes FOLDER/index.html. For each target the page shows the requested goals with the recommended methods. It plots
 /// the error against N and against cost, with 95 % bands and dotted lines for the theory. A table lists every curve.
-/// For a
-/// scene it adds the reference and one picture for each method, as PNG files in the same folder.
+/// For a scene it adds the reference and one picture for each method, as PNG files in the same folder.
 void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head,
                             const std::vector<PageEntry>& all);
 

@@ -96,8 +96,8 @@ mc::RmsError error_of(const PictureSeries& s, const ReferencePicture& reference)
   return e;
 }
 
-// The number of pictures for which the relative standard error of the error is 10 %. The relative variance of a root
-// is a quarter of the relative variance of its square.
+// The number of pictures for which the relative standard error of the error is 10 %. The relative variance of a root is
+// a quarter of the relative variance of its square.
 int pictures_needed(const PictureSeries& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   const double square = squares.mean() - reference.noise;
@@ -160,8 +160,7 @@ struct WorkAndBias {
 };
 
 // The intervals use the jackknife and hold simultaneously for all `methods`. Light from rare paths may be missing in
-// all
-// pictures, which then contain no noise there. So a difference in only a few pixels is not reported as bias.
+// all pictures, which then contain no noise there. So a difference in only a few pixels is not reported as bias.
 WorkAndBias bias_of(const PictureSeries& s, const ReferencePicture& reference, std::size_t methods) {
   const BiasAndNoise all = bias_and_noise_of(s, reference, s.images.size());
   mc::Moments biases, noises, seconds;

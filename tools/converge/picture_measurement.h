@@ -69,10 +69,9 @@ struct Bias {
 
 /// The errors of all methods. N is samples per pixel. The error of a picture is the root of its relmse.
 ///   relmse : mean over pixels and channels of (x - reference)^2 / (reference^2 + mean^2 / 10), minus the contribution
-///   of
-///            the reference's noise
+///            of the reference's noise.
 ///   mean   : over the pixels and channels of the first reference, the same for every method, so that errors do not
-///            depend on the unit of light
+///            depend on the unit of light.
 struct PictureMeasurement {
   std::deque<SamplingMethod> methods; ///< the curves point to these
   Measurement measurement;            ///< its truth is an error of 0
@@ -85,14 +84,12 @@ struct PictureMeasurement {
 
 /// Runs every method with 4, 8, ... max_spp samples per pixel (adaptive ones from 32). The methods take turns, so that
 /// other load on the machine affects all of them. The 95 % intervals of the errors use Student's t over the pictures.
-/// An
-/// error that is not significantly larger than the reference's is a bound. After an interrupt the result holds the
+/// An error that is not significantly larger than the reference's is a bound. After an interrupt the result holds the
 /// finished levels and the methods with at least one.
-///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias
+///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias.
 ///   reference : mis+lt, sobol and the scene's longest path; at each level its samples grow until its error is a tenth
-///   of
-///               the smallest noise
-///   throws    : Error for a black scene, no methods, fewer than 3 pictures, or max_spp below 16 or above 2^28
+///               of the smallest noise.
+///   throws    : Error for a black scene, no methods, fewer than 3 pictures, or max_spp below 16 or above 2^28.
 PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
                                     const PictureOptions& options);
 

@@ -34,18 +34,15 @@ struct CandidatesForError {
   std::vector<TradeCandidate> candidates;
   std::vector<TradeCandidate> nearest; ///< if no method reaches the goal: the smallest error of each method, best first
   /// Seconds of plain Monte Carlo divided by the seconds of the first candidate; 1 if plain Monte Carlo is the first.
-  /// The
-  /// seconds of plain Monte Carlo follow its exact law N^-1/2 from the error at its largest N, for any N down to its
-  /// smallest.
+  /// The seconds of plain Monte Carlo follow its exact law N^-1/2 from the error at its largest N, for any N down to
+  /// its smallest.
   std::optional<IntervalEstimate> gain;
 };
 
 /// Every method within a time, most accurate first; ties come first as in CandidatesForError. Plain Monte Carlo is
 /// extrapolated beyond its largest N by its law. Any other method that ended earlier is taken at its largest N; its
-/// error
-/// there is an upper bound. The lower edge of that error is extrapolated with the steepest slope in the interval, so
-/// that
-/// a curve that ended earlier is not ranked worse for it.
+/// error there is an upper bound. The lower edge of that error is extrapolated with the steepest slope in the interval,
+/// so that a curve that ended earlier is not ranked worse for it.
 struct CandidatesForTime {
   double goal = 0;
   std::vector<TradeCandidate> candidates;
@@ -64,8 +61,7 @@ struct TradeResults {
 };
 
 /// Seconds of one evaluation of a curve near n, with an interval: the median of runs that alternate with the runs of
-/// the
-/// other methods.
+/// the other methods.
 using EvaluationCost = std::function<IntervalEstimate(const ConvergenceCurve& curve, double n)>;
 
 /// Cost from the measurement itself, in which methods ran one after another: the median of the replicates, with the
@@ -73,16 +69,16 @@ using EvaluationCost = std::function<IntervalEstimate(const ConvergenceCurve& cu
 IntervalEstimate measured_cost(const ConvergenceCurve& curve, double n);
 
 /// Runs the first candidates again near their N, and plain Monte Carlo if it is a candidate. The runs alternate, so
-/// that
-/// other load on the machine affects all of them equally. Any other curve uses measured_cost; after an interrupt all
-/// do.
+/// that other load on the machine affects all of them equally. Any other curve uses measured_cost; after an interrupt
+/// all do.
 EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement& m,
                                 const std::vector<TradeCandidate>& candidates, std::uint64_t seed,
                                 const std::atomic<bool>* cancel);
 
 /// The N at which the curve and the two edges of its band fall below an error. Between measured N it interpolates
-/// linearly in the logarithms; beyond the last N it uses N^-1/2. Nothing if the method has not reached the error: the
-/// lower edge does not reach it within the measured N, or the last error is more than twice as large.
+/// linearly in the logarithms; beyond the last N it uses N^-1/2. Returns nothing if the lower edge does not reach the
+/// error within the measured N, or if the last error is more than twice as large. Such a method has not reached the
+/// error.
 std::optional<IntervalEstimate> evaluations_to_reach(const ConvergenceCurve& curve, double error);
 
 CandidatesForError candidates_for_error(const Measurement& m, double error, const EvaluationCost& evaluation_cost);

@@ -8,8 +8,7 @@ namespace carlo {
 namespace {
 
 // The mean luminance of a picture. Pixels are independent, or noise_area states how many share their noise. Channels
-// are
-// correlated, so their errors are added linearly, which is the worst case.
+// are correlated, so their errors are added linearly, which is the worst case.
 mc::Estimate mean_luminance(const render::Image& image, std::uint32_t estimates) {
   double sum = 0, variance = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {

@@ -16,7 +16,7 @@ using Feature = std::string;
 std::vector<Feature> all_features();
 
 /// The features that a scene of the gallery requires, in the same order.
-///   throws : Error if its file cannot be read
+///   throws : Error if its file cannot be read.
 std::vector<Feature> features_of(const GalleryScene& scene);
 
 /// Markdown with the scenes, their sources, and the table of features with the scenes that require them.

@@ -21,7 +21,7 @@ struct RenderedScene {
 };
 
 /// HTML that shows NAME.png of every scene, from the folder of the page. It needs no script and no network.
-///   requested : number of requested scenes; an interrupted run renders fewer
+///   requested : number of requested scenes; an interrupted run renders fewer.
 std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t requested, const std::string& command);
 
 } // namespace carlo

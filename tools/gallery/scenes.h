@@ -32,7 +32,7 @@ const GalleryScene& gallery_scene(std::string_view name);
 inline render::ToneMapping tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
 
 /// The path of its file: among the installed data, or in the source tree for a carlo in its build tree.
-///   throws : Error that names both places if the scenes are in neither
+///   throws : Error that names both places if the scenes are in neither.
 std::string scene_file(const GalleryScene& scene);
 
 } // namespace carlo

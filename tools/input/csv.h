@@ -14,8 +14,7 @@ struct CsvTable {
   std::vector<std::int16_t> digits; ///< for each value: the exponent of 10 of its last digit, including zeros that were
                                     ///< omitted at the end
   /// The same exponent for numbers slightly closer to 0. It is smaller by one if the value is a power of 10 and the
-  /// column
-  /// has a fixed number of significant digits.
+  /// column has a fixed number of significant digits.
   std::vector<std::int16_t> digits_below;
   std::vector<std::uint32_t> lines; ///< for each row: its line in the file, from 1
 
@@ -27,9 +26,8 @@ struct CsvTable {
 /// comments from # to the end of the line, and a comma at the end of a row. It skips a first line of column names: its
 /// first field begins with a letter or _ and is no number.
 ///   throws : Error "file:line: ..." for anything but a finite number, a decimal comma, commas mixed with semicolons,
-///   an
-///            empty field, an unclosed quotation mark, or a row of another length. Error "file: ..." for a file that is
-///            missing, is not text, or contains no numbers.
+///            an empty field, an unclosed quotation mark, or a row of another length. Error "file: ..." for a file that
+///            is missing, is not text, or contains no numbers.
 CsvTable read_csv(const std::string& file);
 
 } // namespace carlo

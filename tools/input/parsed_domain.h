@@ -35,25 +35,24 @@ std::array<double, 3> unknown_quartiles(std::size_t column);
 std::array<double, 3> quartiles_of(std::vector<double> column);
 
 /// Converts the places where a density jumps, in units of each axis, to chart coordinates.
-///   throws : Error for places outside of an axis
+///   throws : Error for places outside of an axis.
 using Breaks = std::array<std::vector<double>, 3>;
 Breaks chart_breaks(const mc::AnyDomain& domain, const Breaks& places);
 
 /// Parses places by the names of the axes, "x=0.25,0.5,theta=0:90:15", with lists and ranges as in parameters.h. Axes
-/// are
-/// the columns of intervals, r and phi of disk and annulus, theta and phi of sphere and hemisphere. Angles are in
+/// are the columns of intervals, r and phi of disk and annulus, theta and phi of sphere and hemisphere. Angles are in
 /// degrees.
-///   throws : Error that names --breaks for anything else, or for an axis that the domain does not have
+///   throws : Error that names --breaks for anything else, or for an axis that the domain does not have.
 Breaks parse_breaks(const std::string& text, const mc::AnyDomain& domain);
 
 /// Parses parts separated by commas, in the order of the columns:
-///   NAME=LO:HI        : an interval; either end may be -inf or inf
-///   disk, annulus=R   : x^2 + y^2 <= 1, and additionally >= R^2; columns x, y
-///   triangle          : x >= 0, y >= 0, x + y <= 1; columns x, y
-///   ball              : x^2 + y^2 + z^2 <= 1; columns x, y, z
-///   sphere, hemisphere: unit vectors, and additionally z >= 0; columns x, y, z
-///   discrete=N        : outcomes 0 to N - 1 in a column i; not combined with other parts
-///   throws : Error for anything else, more than three dimensions or four columns, or a repeated name
+///   NAME=LO:HI        : an interval; either end may be -inf or inf.
+///   disk, annulus=R   : x^2 + y^2 <= 1, and additionally >= R^2; columns x, y.
+///   triangle          : x >= 0, y >= 0, x + y <= 1; columns x, y.
+///   ball              : x^2 + y^2 + z^2 <= 1; columns x, y, z.
+///   sphere, hemisphere: unit vectors, and additionally z >= 0; columns x, y, z.
+///   discrete=N        : outcomes 0 to N - 1 in a column i; not combined with other parts.
+///   throws : Error for anything else, more than three dimensions or four columns, or a repeated name.
 ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles = unknown_quartiles,
                           Rounding rounding = Rounding::printed);
 

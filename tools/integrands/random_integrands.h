@@ -18,18 +18,18 @@ struct IntegrandClass {
 
 /// All classes, with their ranges of dimensions. Every integrand is multiplied by a power of two between 2^-40 and
 /// 2^40.
-///   step     : 1 below a threshold on each axis; 1 to 3
-///   box      : 1 between two thresholds on each axis
-///   jump     : a step times exp(c . x); 2 to 8
-///   kink     : product of 1 + c |x - a|; 1 to 6
-///   shell    : 1 between two spheres; 2 and 3
-///   singular : product of |x - a|^-p with p up to .4, a at 0 or inside; 1 to 3
-///   infinite : the same with p from .5 to .95, so that the variance is infinite; 1 and 2
-///   peaks    : up to 3 Gaussians anywhere; 2 to 6
-///   ridge    : a Gaussian with rotated axes; 2 and 3
-///   needle   : a long thin Gaussian with rotated axes; 4 and 5
-///   wave     : cos(b + c . x); 1 to 8
-///   product  : product of |4 x - 2|^p; 5 to 20
+///   step     : 1 below a threshold on each axis; 1 to 3.
+///   box      : 1 between two thresholds on each axis; 1 to 3.
+///   jump     : a step times exp(c . x); 2 to 8.
+///   kink     : product of 1 + c |x - a|; 1 to 6.
+///   shell    : 1 between two spheres; 2 and 3.
+///   singular : product of |x - a|^-p with p up to .4, a at 0 or inside; 1 to 3.
+///   infinite : the same with p from .5 to .95, so that the variance is infinite; 1 and 2.
+///   peaks    : up to 3 Gaussians anywhere; 2 to 6.
+///   ridge    : a Gaussian with rotated axes; 2 and 3.
+///   needle   : a long thin Gaussian with rotated axes; 4 and 5.
+///   wave     : cos(b + c . x); 1 to 8.
+///   product  : product of |4 x - 2|^p; 5 to 20.
 const std::vector<IntegrandClass>& integrand_classes();
 
 } // namespace carlo

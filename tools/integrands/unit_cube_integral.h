@@ -10,11 +10,11 @@
 namespace carlo {
 
 /// The smoothness class of an integrand, which determines the convergence rate of samplers.
-///   additive  : smooth, a sum of functions of one coordinate each
-///   axis_kink : Lipschitz, with kinks parallel to the axes; kink: with kinks in any other surface
-///   axis_jump : jumps at faces parallel to the axes; jump: at any other surface
-///   corner    : product of x^-corner_exponent; if the exponent is < 0, the slope at 0 is infinite
-///   matching_faces : equal values on opposite faces of the cube, but different slopes
+///   additive  : smooth, a sum of functions of one coordinate each.
+///   axis_kink : Lipschitz, with kinks parallel to the axes; kink: with kinks in any other surface.
+///   axis_jump : jumps at faces parallel to the axes; jump: at any other surface.
+///   corner    : product of x^-corner_exponent; if the exponent is < 0, the slope at 0 is infinite.
+///   matching_faces : equal values on opposite faces of the cube, but different slopes.
 struct Smoothness {
   enum class Class { unknown, smooth, additive, periodic, axis_kink, kink, axis_jump, jump, corner };
   Class kind = Class::unknown;
@@ -44,12 +44,11 @@ struct UnitCubeIntegral {
 };
 
 /// Evaluates the integrand at each of the points.
-///   throws : Error with the first point at which it is not finite
+///   throws : Error with the first point at which it is not finite.
 void evaluate(const UnitCubeIntegral& e, UnitCubeIntegral::UnitPoint points, std::span<double> values);
 
 /// Throws Error if 4096 values are all 0 and some of them underflow. Callers use it for an integrand that was 0 at
-/// every
-/// point, since the volume of its domain may be the cause.
+/// every point, since the volume of its domain may be the cause.
 void refuse_underflow(const UnitCubeIntegral& e);
 
 const std::vector<UnitCubeIntegral>& textbook_integrals();

@@ -16,13 +16,13 @@ struct VariableBounds {
 };
 
 /// Parses "x=0:1,y=-1:2,z=0:inf". A bound may be a constant expression, as in "phi=-_pi:2*_pi"; see parse_function.
-///   throws : Error that names --domain for anything else
+///   throws : Error that names --domain for anything else.
 std::vector<VariableBounds> parse_bounds(const std::string& box);
 
 /// The image of u in [0,1] within the bounds: x, which increases with u, and dx/du.
-///   finite   : x = lo (1 - u) + hi u
-///   lo:inf   : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi is mirrored
-///   -inf:inf : x = t / (1 - t^2), t = 2 u - 1
+///   finite   : x = lo (1 - u) + hi u.
+///   lo:inf   : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi is mirrored.
+///   -inf:inf : x = t / (1 - t^2), t = 2 u - 1.
 struct MappedPoint {
   double x, slope;
 };

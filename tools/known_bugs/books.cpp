@@ -1,6 +1,6 @@
 // P1 to P14: the sampling bugs of Ray Tracing: The Rest of Your Life, in its first edition [Shirley16] and in version
-// 3.2.3. Without a test case:
-//   P10 the sentence "a zero radius gives cos = 0, and that works": the cosine is 1 and the density infinite
+// 3.2.3. One of them has no test case:
+//   P10 the sentence "a zero radius gives cos = 0, and that works": the cosine is 1 and the density infinite.
 #include <known_bugs/test_cases.h>
 
 #include <mc/random/hash.h>

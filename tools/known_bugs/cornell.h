@@ -19,9 +19,9 @@ struct CornellBox {
 /// Renders all boxes. The first is the reference: cosine and light directions in a correct mixture, with four times as
 /// many paths.
 ///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50
-///   bounces
-///   result : bitwise equal for any number of threads
-///   Source : [Shirley16]
+///            bounces.
+///   result : bitwise equal for any number of threads.
+///   Source : [Shirley16].
 std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads);
 
 } // namespace carlo

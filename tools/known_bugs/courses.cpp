@@ -1,12 +1,12 @@
 // P15 to P36: the bugs of the SIGGRAPH 2019 course Introduction to Real-Time Ray Tracing, of smallpt as a lecture
 // prints it, of version 4 of the Weekend books, and of the notes on lajolla.
-// Without a test case:
-//   P16 the pixel's corner instead of its centre without jitter: no random number is drawn
-//   P17 one parameter for focal length and focus distance: a name, not a density
-//   P23 a texel index of 1 past the last: an index, not a density
-//   P28 two arguments evaluated in unspecified order: a matter of the language
-//   P31 fewer than 4 samples per pixel become 0: an option that is not checked
-//   P32 walls of radius 1e5 in float: the precision of an intersection
+// These have no test case:
+//   P16 the pixel's corner instead of its centre without jitter: no random number is drawn.
+//   P17 one parameter for focal length and focus distance: a name, not a density.
+//   P23 a texel index of 1 past the last: an index, not a density.
+//   P28 two arguments evaluated in unspecified order: a matter of the language.
+//   P31 fewer than 4 samples per pixel become 0: an option that is not checked.
+//   P32 walls of radius 1e5 in float: the precision of an intersection.
 #include <known_bugs/test_cases.h>
 
 #include <mc/core/frame.h>

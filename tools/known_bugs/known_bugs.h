@@ -2,8 +2,7 @@
 /// Wrong samplers, densities, weights and estimators, each paired with a correct version.
 ///
 /// They are reimplemented here for two users. `carlo slips` shows which checks reject the code that the books print.
-/// The
-/// tests require that every one of them is rejected. A family adds its bugs in its own file, known_bugs/FAMILY.cpp.
+/// The tests require that every one of them is rejected. A family adds its bugs in its own file, known_bugs/FAMILY.cpp.
 
 #include <catalogue/catalogue.h>
 
@@ -20,15 +19,13 @@ namespace carlo {
 struct TestCase {
   std::function<mc::Report(const CaseOptions&)> check;
   /// Draws from a stream until one sample is wrong by itself: not finite, outside, density 0, or wrong weight. Returns
-  /// the
-  /// number of draws; 0 if none of the first `most` is wrong.
+  /// the number of draws; 0 if none of the first `most` is wrong.
   std::function<std::uint64_t(std::uint64_t seed, std::uint64_t most)> first_failure;
   std::uint64_t min_samples = 1000; ///< samples that `check` needs
 };
 
 /// One bug. P1 to P36 are from the books and courses, in the order of their lists. R1 ... were shipped by renderers. C1
-/// ...
-/// and V1 ... are small perturbations of a cosine lobe and of visible normals.
+/// ... and V1 ... are small perturbations of a cosine lobe and of visible normals.
 struct KnownBug {
   std::string id;
   std::string name;

@@ -28,8 +28,7 @@ mc::Subject on_interval(double lo, double hi, SampleNumber sample, std::function
 TestCase test_case(mc::Subject subject);
 
 /// A warp of the hemisphere with its inverse. It is checked by the laws of a sampler and by invert(sample(u)) = u
-/// within
-/// `tolerance`.
+/// within `tolerance`.
 struct InvertibleWarp {
   std::function<Direction(const mc::Vec2<double>&)> sample;
   Density pdf;

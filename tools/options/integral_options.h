@@ -26,7 +26,7 @@ std::vector<Option> integral_option_rows(IntegralOptions& o);
 OptionGroup plugin_group(IntegralOptions& o);
 
 /// The named integrands; without a name the group books.
-///   throws : Error for an unknown name, a bad number, and as find_integrand and plugin_targets
+///   throws : Error for an unknown name, a bad number, and as find_integrand and plugin_targets.
 std::vector<IntegralTarget> targets_of(const IntegralOptions& o);
 
 /// Prints the integrands and the methods.
@@ -69,7 +69,7 @@ struct SceneMeasureRequest {
 IntegralTarget scene_target(const std::string& path);
 
 /// Measures every strategy, sampler and longest path, with progress on a terminal.
-///   throws : Error for a scene that cannot be read or is black, an unknown name, or a bad number
+///   throws : Error for a scene that cannot be read or is black, an unknown name, or a bad number.
 PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureRequest& run);
 
 /// A line about the reference, and one for each method with a significant bias.

@@ -1,11 +1,14 @@
 #pragma once
-/// A subcommand of carlo as data: its words, its options as rows, and the function that runs it.
+/// A subcommand of carlo as data: its texts, its options as rows, and the function that runs it.
 ///
-/// A new subcommand is one file in cli/, CMake's line for it, and a row in subcommands.cpp. The file defines
+/// A new subcommand is one file in cli/, its line in CMakeLists.txt, and a row in subcommands.cpp. The file defines
 ///   Subcommand NAME_subcommand() { return make_subcommand<Options>(about, rows, run); }
-/// where Options is a struct of its own, `about` its texts, rows(Options&) lists the options with the fields that they
-/// fill, and run(const Options&) prints its result on stdout and progress on stderr, returns the exit code, and throws
-/// mc::Error on bad input.
+/// and these four names.
+///   Options : a struct of its own.
+///   about   : the texts of the subcommand.
+///   rows    : rows(Options&) lists the options and binds them to fields.
+///   run     : run(const Options&) prints its result on stdout and progress on stderr, and returns the exit code. It
+///             throws mc::Error on bad input.
 
 #include <cstdint>
 #include <functional>

@@ -20,8 +20,8 @@ struct Provenance {
 /// "" where every sample was finite; else the number of bad samples, and the place of the first.
 std::string invalid_samples_text(const render::RenderResult& result, const Provenance& from);
 
-/// The progress of a partial render: "interrupted before the end", or "interrupted in its first pass: 122 of 768 rows were
-/// rendered, the others repeat the nearest".
+/// The progress of a partial render: "interrupted before the end", or "interrupted in its first pass: 122 of 768 rows
+/// were rendered, the others repeat the nearest".
 std::string interruption_text(const render::RenderResult& result);
 
 /// Writes scene, command, commit, seed, samples and progress into the picture's metadata.
@@ -39,10 +39,9 @@ std::string samples_per_second(const render::RenderResult& result);
 std::string format_error(const render::RenderResult& result);
 
 /// Three lines of at most 80 columns if the file name is short: size and time, error, rates. An interrupted render
-/// begins
-/// with "PARTIAL: ...". A last sentence explains why a run ended before its target error.
-///   file         : the written picture
-///   target_error : the requested error, if any
+/// begins with "PARTIAL: ...". A last sentence explains why a run ended before its target error.
+///   file         : the written picture.
+///   target_error : the requested error, if any.
 std::string render_summary(const std::string& file, const render::RenderResult& result,
                            const std::optional<double>& target_error);
 

@@ -14,9 +14,9 @@ namespace carlo {
 /// Metadata that identify the expected picture: only pictures with equal metadata may be averaged.
 using RenderFingerprint = std::map<std::string, std::string>;
 
-///   variables : "name=value" of the scene
-///   read      : the scene and the names of its files, which are hashed
-///   part      : the rendered part of the picture
+///   variables : "name=value" of the scene.
+///   read      : the scene and the names of its files, which are hashed.
+///   part      : the rendered part of the picture.
 RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect,
                                      std::vector<std::string> variables, const render::SceneFile& read,
                                      const render::RenderOptions& settings, const render::Crop& part);
@@ -29,9 +29,9 @@ struct ResumeState {
 };
 
 /// Reads the picture that --resume continues.
-///   settings : of the new run; its seed is changed, so that its samples differ from the existing ones
+///   settings : of the new run; its seed is changed, so that its samples differ from the existing ones.
 ///   throws   : Error for a missing or incomplete picture, for one with other metadata, naming the difference, and
-///              where one more sample would lose the variance
+///              where one more sample would lose the variance.
 ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,
                               render::RenderOptions& settings);
 

@@ -72,8 +72,7 @@ std::vector<Asked> asked_sets(const std::string& path, const std::vector<std::st
 }
 
 // The sampler's parameters, replaced by the values of the set. Nothing if the sampler lacks one of the names. A value
-// out
-// of range throws if the sampler was `asked` for, and returns nothing otherwise.
+// out of range throws if the sampler was `asked` for, and returns nothing otherwise.
 std::optional<std::vector<double>> values_of(const std::string& path, const Description& d, const ParameterSet& set,
                                              bool asked) {
   std::vector<Parameter> parameters = d.parameters;

@@ -2,18 +2,14 @@
 /// Samplers in any language, as a program that answers over pipes.
 ///
 /// Protocol: carlo writes questions to the program's standard input, each a line followed by numbers. It reads the
-/// answer
-/// from the program's standard output, which contains numbers only. Numbers are IEEE doubles of 8 bytes, least
-/// significant
-/// byte first.
+/// answer from the program's standard output, which contains numbers only. Numbers are IEEE doubles of 8 bytes, least
+/// significant byte first.
 ///   "sample N K\n" and N K numbers : N points u of [0,1)^K. Answer: N C numbers, the samples x, where C is the number
-///   of
-///                                    columns of --domain.
+///                                    of columns of --domain.
 ///   "pdf N C\n" and N C numbers    : N points x of the domain. Answer: N numbers, the densities; for discrete outcomes
 ///                                    their probabilities.
 /// The program answers each question before it reads the next, flushes, and ends at the end of its input. Equal
-/// questions
-/// have equal answers. tests/tools/commands/sampler.py is an example in 30 lines.
+/// questions have equal answers. tests/tools/commands/sampler.py is an example in 30 lines.
 
 #include <plugin/worker.h>
 
@@ -33,7 +29,7 @@ struct CommandDistribution {
 /// The program's sampler as one case. It is checked by every law of check_laws that needs only sample and pdf. Like a
 /// plugin it runs in a separate process under limits, and every process that it started ends with it.
 ///   throws : Error for an invalid domain; when it runs, Error for a program that cannot be started, ends, hangs, or
-///            answers with too few numbers
+///            answers with too few numbers.
 Case command_case(const CommandDistribution& distribution, const WorkerOptions& worker);
 
 /// Answers the request of command_case in the worker.

@@ -11,12 +11,10 @@
 namespace carlo {
 
 /// The named integrands of the shared object, or all of them. Their replicates run like plugins' samplers, one task at
-/// a
-/// time, under the worker's limits. A few hundred points are checked before the first replicates.
+/// a time, under the worker's limits. A few hundred points are checked before the first replicates.
 ///   throws : Error for a plugin that load_plugin refuses or that misbehaves, for one without integrands, and for an
 ///            unknown name. When a target runs: Error with the place of a crash, an exception or a hang. The same if
-///            the
-///            check shows that the integrand is no function of x alone, or that eval_many differs from eval.
+///            the check shows that the integrand is no function of x alone, or that eval_many differs from eval.
 std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                            const WorkerOptions& worker);
 

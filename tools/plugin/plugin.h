@@ -15,8 +15,7 @@
 namespace carlo {
 
 /// A sampler of a loaded shared object with its parameters set. It wraps the functions of mc_sampler; the monitor
-/// records
-/// each call. It exists only in the child.
+/// records each call. It exists only in the child.
 class PluginDistribution {
  public:
   /// throws : Error if `create` rejects the parameters
@@ -51,10 +50,8 @@ struct Plugin {
 
 /// Loads the shared object and checks its tables against the contracts of the header.
 ///   throws : Error for a file that is no shared object, lacks mc_plugin or a library that it depends on, or was made
-///   for a
-///            later version of the header. Error for a sampler or integrand without a function, or with an invalid
-///            domain,
-///            number or parameter.
+///            for a later version of the header. Error for a sampler or integrand without a function, or with an
+///            invalid domain, number or parameter.
 Plugin load_plugin(const std::string& path, CallMonitor& monitor);
 
 /// The sampler's domain in the syntax of parse_domain.
@@ -68,14 +65,12 @@ mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const 
 mc::Report check_plugin(const PluginDistribution& distribution, const std::string& title, const CaseOptions& options);
 
 /// One case for each sampler of the shared object and each parameter set that contains only parameters of this sampler.
-/// A
-/// sampler without a matching set has one case with its defaults. Loading and checking run in separate processes, see
+/// A sampler without a matching set has one case with its defaults. Loading and checking run in separate processes, see
 /// worker.h.
-///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h
-///   names  : the requested samplers, empty for all; a set out of range of any other sampler is no error
+///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h.
+///   names  : the requested samplers, empty for all; a set out of range of any other sampler is no error.
 ///   throws : Error for a plugin that load_plugin refuses, that crashes or exceeds a limit, or for a set that no
-///   sampler
-///            accepts
+///            sampler accepts.
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets,
                        const std::vector<std::string>& names, const WorkerOptions& worker);
 

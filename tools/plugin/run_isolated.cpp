@@ -34,8 +34,7 @@ struct Unmap {
 };
 
 // The first byte of the child's message, which describes how the work ended. The length of the text follows, to detect
-// a
-// truncated message, and then the text: the result or the error.
+// a truncated message, and then the text: the result or the error.
 enum Ending : char { returned = 'r', refused = 'e', threw = 't', exhausted = 'm' };
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -36,8 +36,7 @@ class CallMonitor {
   std::uint64_t calls() const { return calls_.load(std::memory_order_relaxed); }
   bool inside() const { return function_.load(std::memory_order_relaxed) != nullptr; }
   /// " in sample at u = (0.25, 0.5)". If a part of the answer has arrived, also ", where 2 of 3 numbers have come
-  /// (doubles
-  /// of 8 bytes)". Outside of any call " after 12 calls".
+  /// (doubles of 8 bytes)". Outside of any call " after 12 calls".
   std::string where() const;
 
  private:
@@ -59,17 +58,16 @@ struct ResourceLimits {
 };
 
 /// The default limits, replaced by --timeout and --memory if given.
-///   throws : Error for invalid values, and for either option without external code
+///   throws : Error for invalid values, and for either option without external code.
 ResourceLimits resource_limits(std::optional<double> timeout, std::optional<double> memory, bool has_foreign_code);
 
 /// Runs `work` in a forked child and returns its result. The child's standard output goes to standard error. On return,
 /// the child and every process that it started have ended. The memory limit applies to the address space of each
-/// process,
-/// and to the total memory of all of them, which is checked ten times a second.
-///   needs  : a process with a single thread, see worker.h
-///   hangup : a descriptor; the work is ended when its other end is closed, since nothing waits for the result then
+/// process, and to the total memory of all of them, which is checked ten times a second.
+///   needs  : a process with a single thread, see worker.h.
+///   hangup : a descriptor; the work is ended when its other end is closed, since nothing waits for the result then.
 ///   throws : Error "who: ..." in one line with the place, if the work throws, crashes, ends the process or exceeds a
-///   limit
+///            limit.
 std::string run_isolated(const std::string& who, const ResourceLimits& limits, int hangup,
                          const std::function<std::string(CallMonitor&)>& work);
 

@@ -30,8 +30,7 @@ class ChildProcess {
   int output() const { return output_; } ///< read end of the program's standard output; -1 if the output goes to a file
   void close_input();
   /// Waits for output or for the end of the pipe. Returns false if the program has ended without further output, even
-  /// if
-  /// a process that it started still holds the pipe open.
+  /// if a process that it started still holds the pipe open.
   bool has_output() const;
   /// Number of output bytes that can be read without waiting.
   std::size_t available_bytes() const;

@@ -57,8 +57,7 @@ inline std::vector<pid_t> descendants(pid_t of) {
 }
 
 /// Resident memory of the processes [bytes]. Pages that several processes share count for each of them. It costs one
-/// small
-/// read for each process.
+/// small read for each process.
 inline double resident_bytes(const std::vector<pid_t>& ids) {
   double pages = 0;
   for (const pid_t id : ids) {
@@ -70,8 +69,7 @@ inline double resident_bytes(const std::vector<pid_t>& ids) {
 }
 
 /// Proportional memory of the processes [bytes]: each page is divided by the number of processes that share it. The
-/// kernel
-/// walks over all their pages. A process that does not report this value counts with its resident memory.
+/// kernel walks over all their pages. A process that does not report this value counts with its resident memory.
 inline double proportional_bytes(const std::vector<pid_t>& ids) {
   double bytes = 0;
   for (const pid_t id : ids) {

@@ -22,7 +22,7 @@ struct PointSet {
 };
 
 /// The mean of the integrand over n points. fill(first, points) writes consecutive points from index `first` on.
-///   throws : the errors of `evaluate`
+///   throws : the errors of `evaluate`.
 double mean_over(const UnitCubeIntegral& e, std::uint64_t n,
                  const std::function<void(std::uint64_t first, std::span<double> points)>& fill);
 

@@ -27,7 +27,7 @@ struct SamplingMethod {
   std::string points_file;   ///< file that its points come from; empty: none
   bool scalar_calls = false; ///< calls integrands with one point at a time, even if they accept many
   /// An estimate from about n evaluations.
-  ///   throws : Error with the point at which the integrand is not finite
+  ///   throws : Error with the point at which the integrand is not finite.
   std::function<MethodEstimate(const UnitCubeIntegral& e, std::uint64_t n, std::uint64_t seed)> estimate;
 };
 
@@ -42,7 +42,7 @@ const SamplingMethod& sampling_method(const std::string& name);
 
 /// The points of a file, one in each row. Each seed shifts them modulo 1 by a random vector (Cranley-Patterson), which
 /// preserves their distances on the torus. An estimate with n points uses the first n rows.
-///   throws : Error for a file that read_points refuses
+///   throws : Error for a file that read_points refuses.
 SamplingMethod points_file_method(const std::string& file);
 
 } // namespace carlo

@@ -16,8 +16,7 @@ std::size_t columns_of(std::string_view text);
 
 /// Text broken between words, so that no line exceeds `columns` unless a single word does. Every line begins with
 /// `indent` blanks and ends with a line feed. The first line omits the first `used` of these blanks, for text that
-/// already
-/// precedes it. "\n" in the text begins a new line.
+/// already precedes it. "\n" in the text begins a new line.
 std::string wrapped(std::string_view text, std::size_t columns, std::size_t indent = 0, std::size_t used = 0);
 
 /// A row of a list of terms: the term at column `indent`, the text at column `hang`. The text begins on a line of its

@@ -7,8 +7,7 @@
 namespace carlo {
 
 /// During its lifetime, Ctrl-C (SIGINT) and the SIGTERM of timeout and batch queues set a flag. A second Ctrl-C ends
-/// the
-/// program immediately. A second SIGTERM has no effect, since timeout sends two.
+/// the program immediately. A second SIGTERM has no effect, since timeout sends two.
 class Interrupt {
  public:
   Interrupt() : old_interrupt_(std::signal(SIGINT, raise)), old_terminate_(std::signal(SIGTERM, raise)) {

@@ -17,8 +17,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// fraction : of the work that is done, in [0,1]; the remaining time is extrapolated from it
-  /// text     : parts separated by two blanks, the most important one first, see progress_line
+  /// Redraws the line.
+  ///   fraction : finished share of the work, in [0,1]; the remaining time is extrapolated from it.
+  ///   text     : parts separated by two blanks, the most important one first, see progress_line.
   void show(double fraction, const std::string& text);
   bool is_visible() const { return enabled_; } ///< whether show() has an effect
   void clear();
