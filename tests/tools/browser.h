@@ -1,5 +1,5 @@
 #pragma once
-// A headless browser, where there is one, to see what it makes of a page.
+// Loads pages in a headless browser, if one is installed.
 
 #include <tools/run_carlo.h>
 
@@ -17,7 +17,7 @@ namespace support {
 
 inline constexpr const char* no_browser = "no chromium here: the page was not looked at in a browser";
 
-/// What the browser made of the page at the address file#hash, and what it logged; empty without a browser.
+/// The DOM after the browser loaded file#hash, and its console messages; empty without a browser.
 inline std::string browse(const std::filesystem::path& file, const std::string& hash) {
   for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
     if (std::system(fmt::format("command -v {} >/dev/null 2>&1", browser).c_str()) != 0) continue;
@@ -30,14 +30,14 @@ inline std::string browse(const std::filesystem::path& file, const std::string& 
   return {};
 }
 
-/// What the page complained of on the browser's console.
+/// The first message on the browser's console.
 inline std::string logged(const std::string& dom) {
   const std::size_t at = dom.find("CONSOLE");
   return at == std::string::npos ? "" : dom.substr(at, 500);
 }
 
-/// Nothing of the page at file#hash is wider than a phone. A frame of 390 pixels, since a browser's own window is never
-/// as narrow; the page in it says how wide it came out.
+/// Checks that nothing in the page file#hash is wider than a phone. The page is loaded in a frame of 390 pixels, since
+/// a browser's own window is never so narrow. The page reports its width to the frame.
 inline void expect_fits_a_phone(const std::filesystem::path& file, const std::string& hash = {}) {
   std::string text = mc::read_file(file.string());
   text.insert(text.find("</body>"),

@@ -1,5 +1,5 @@
 #pragma once
-// Ctrl-C on a terminal, or another signal, without waiting for a time.
+// Sends Ctrl-C on a terminal, or another signal, without a fixed delay.
 
 #include <tools/run_carlo.h>
 
@@ -10,8 +10,8 @@
 
 namespace support {
 
-/// Runs carlo on a terminal of its own and types Ctrl-C once it has written `sign` there: by default, its progress.
-/// Instead of SIGINT, which is what Ctrl-C sends, it may get another signal.
+/// Runs carlo on its own terminal and types Ctrl-C as soon as the output contains `sign`, by default a progress line.
+/// Any other `signal` is sent directly.
 inline ProcessResult interrupt_carlo(const std::string& arguments, const std::string& sign = "\033[K",
                                      int signal = SIGINT) {
   int terminal = -1;
@@ -25,7 +25,7 @@ inline ProcessResult interrupt_carlo(const std::string& arguments, const std::st
   std::string output;
   bool typed = false;
   std::array<char, 4096> buffer;
-  // At the end of the child, a read fails.
+  // The read fails when the child ends.
   for (ssize_t n; (n = read(terminal, buffer.data(), buffer.size())) > 0;) {
     output.append(buffer.data(), static_cast<std::size_t>(n));
     if (typed || output.find(sign) == std::string::npos) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the carlo binary, or any other, as a user does.
+// Runs the carlo binary, or any other command, on the command line.
 
 #include <array>
 #include <cstdio>

@@ -1,5 +1,5 @@
 #pragma once
-// Calls a subcommand's function and keeps what it says.
+// Calls a subcommand's function and captures its output.
 
 #include <cli/known_bugs.h>
 #include <cli/validate.h>
@@ -19,7 +19,7 @@ struct Output {
 };
 
 inline int call(carlo::ValidateCommandOptions o) {
-  o.worker = CARLO_PATH; // a test is no carlo
+  o.worker = CARLO_PATH; // the test program cannot act as a worker
   return carlo::run_validate(o);
 }
 inline int call(const carlo::KnownBugsCommandOptions& o) { return carlo::run_known_bugs(o); }
@@ -31,7 +31,7 @@ template <class Options> Output run(const Options& o) {
   return {code, testing::internal::GetCapturedStdout()};
 }
 
-/// What carlo complains about, a single line; "" when it does not.
+/// The one-line error message; "" if there is no error.
 template <class Options> std::string refusal(const Options& o) {
   testing::internal::CaptureStdout();
   const std::string text = error_of([&] { call(o); });

@@ -1,4 +1,4 @@
-// Every sampler of the two libraries is in the catalogue, and every case obeys its laws.
+// Every distribution of the two libraries is in the catalogue, and every case obeys its laws.
 
 #include <catalogue/catalogue.h>
 
@@ -21,7 +21,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-// The types of a folder's headers whose own body has all of the members.
+// The types in a folder's headers that declare all of the members in their own body.
 std::set<std::string> types_with(const fs::path& folder, const std::vector<std::string>& members) {
   static const std::regex declaration(
       R"((?:^|\n)(?:template <[^\n]*>\s*\n?)?(?:  requires[^\n]*\n)?(?:struct|class) (\w+)[^;{\n]*\{)");
@@ -41,7 +41,7 @@ std::set<std::string> types_with(const fs::path& folder, const std::vector<std::
   return types;
 }
 
-// The kinds that a closed set lists: struct Bsdf : std::variant<Lambert, RoughPlastic<LayeredBase>, ...>.
+// The alternatives of a closed set: struct Bsdf : std::variant<Lambert, RoughPlastic<LayeredBase>, ...>.
 std::set<std::string> members_of(const fs::path& header) {
   const std::string text = text_of(header);
   std::smatch list;
@@ -54,7 +54,7 @@ std::set<std::string> members_of(const fs::path& header) {
   return types;
 }
 
-// What a case may be in a closed set: its name, or of a template that and what the parameters begin with.
+// Names of a case in a closed set: its own name, or the template name with the start of its parameters.
 std::set<std::string> names_of(const carlo::Case& c) {
   return {c.name, c.name + "<" + c.parameters.substr(0, c.parameters.find(',')) + ">"};
 }
@@ -83,8 +83,8 @@ TEST(Catalogue, Titles_AreUnique) {
   for (const carlo::Case& c : carlo::catalogue()) EXPECT_TRUE(titles.insert(c.title()).second) << c.title();
 }
 
-// 20000 samples: the deterministic laws at full strength, the counts at a coarse one; `carlo validate --all` runs them
-// at 1e6. Alpha 1e-6 a case: the seeds are fixed and some five hundred cases must pass.
+// With 20000 samples the deterministic laws have full strength and the counts a coarse one; `carlo validate --all` runs
+// them at 1e6. Alpha is 1e-6 for each case: the seeds are fixed and some five hundred cases must pass.
 class CatalogueTest : public testing::TestWithParam<carlo::Case> {};
 
 TEST_P(CatalogueTest, ObeysLaws) {
@@ -102,6 +102,6 @@ INSTANTIATE_TEST_SUITE_P(All, CatalogueTest, testing::ValuesIn(carlo::catalogue(
 } // namespace
 
 namespace carlo {
-// GoogleTest prints the bytes of a parameter otherwise.
+// Otherwise GoogleTest prints the bytes of a parameter.
 void PrintTo(const Case& c, std::ostream* out) { *out << c.title(); }
 } // namespace carlo

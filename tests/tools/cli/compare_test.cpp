@@ -1,4 +1,4 @@
-// carlo compare: what it must accept and what it must reject.
+// carlo compare: differences that it must accept and differences that it must reject.
 
 #include <tools/run_carlo.h>
 
@@ -48,7 +48,7 @@ struct Compare : support::ScratchTest {
   }
 };
 
-// Ten fixed pairs at alpha = 0.01: two rejections or more have probability 0.004.
+// Ten fixed pairs at alpha = 0.01: two or more rejections have probability 0.004.
 TEST_F(Compare, AcceptsNoiseAndRejectsBiasedPixelOrBlock) {
   int rejected = 0;
   for (std::uint64_t k = 0; k < 10; ++k) {
@@ -75,8 +75,8 @@ TEST_F(Compare, AcceptsNoiseAndRejectsBiasedPixelOrBlock) {
   EXPECT_THAT(run.output, HasSubstr("(3, 40) red"));
 }
 
-// A lamp smaller than a pixel, of which all point sets saw nearly the same share: their spread says too little, in a
-// block that is quiet but for it.
+// A lamp smaller than a pixel: all point sets sampled nearly the same share of it, so the spread understates the error.
+// The rest of the block has little noise.
 TEST_F(Compare, NoiselessPixel_DoesNotFailItsBlock) {
   render::Image a(size, size);
   for (auto& p : a.pixels) p.setConstant(render::Float(0.5));
@@ -114,7 +114,7 @@ TEST_F(Compare, MetricsAndDifferenceImage) {
   EXPECT_EQ(compare("--metric mean_ratio").output, "1\n");
 }
 
-// What one image's noise may be is no verdict on two.
+// The noise of one image gives no verdict on two.
 TEST_F(Compare, NoVerdictWithoutBothVariances) {
   render::Image bare = noisy(2, 0.9);
   bare.variance.clear();

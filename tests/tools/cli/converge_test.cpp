@@ -1,4 +1,4 @@
-// carlo converge: integrands of every kind, ways to sample them, what is written, and bad input.
+// carlo converge: integrands of every kind, sampling methods, output files, and bad input.
 
 #include <tools/interrupt_carlo.h>
 #include <tools/run_carlo.h>
@@ -67,10 +67,10 @@ TEST_F(Converge, Scene_IsComparedWithAReference) {
   expect_refused(dark + " --size 4x4 --max-spp 16", "the picture is black");
   expect_refused(dark + " --points-file p.csv", "--points-file is not for scenes");
   expect_refused(dark + " --max-n 64", "--memory and --max-n are for an integrand; a scene (.xml)");
-  expect_refused("pi --max-n 1", "--max-n 1 must lie between 64 and 2^28"); // not what one sampler takes at least
+  expect_refused("pi --max-n 1", "--max-n 1 must lie between 64 and 2^28"); // this is not the minimum of one sampler
 }
 
-// As carlo render does, once.
+// The warning of carlo render, printed once.
 TEST_F(Converge, SceneTooLargeForFloat_IsWarnedAbout) {
   const std::string huge = write("huge.xml", R"(<scene version="0.5.0"><sensor type="perspective">
     <float name="fov" value="40"/></sensor><emitter type="constant"/>
@@ -88,7 +88,7 @@ TEST_F(Converge, SceneTooLargeForFloat_IsWarnedAbout) {
   }
 }
 
-// A white sphere in a white furnace: all light is 1, and what pixels differ by is rounding.
+// A white sphere in a white furnace: the radiance is 1 everywhere, and pixels differ only by rounding.
 TEST_F(Converge, NoiselessScene_IsRejected) {
   const std::string furnace = write("furnace.xml", R"(<scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="2"/></integrator>
@@ -144,7 +144,8 @@ TEST_F(Converge, ErrorBelowReferenceError_HasNoValue) {
 }
 
 TEST_F(Converge, HeavyTail_TakesMoreReplicates) {
-  // A value in sixteen: an RMS error is known to 10 % after more replicates than for normal errors.
+  // The integrand is nonzero for one point in sixteen. Its RMS error needs more replicates for 10 % than normal errors
+  // do.
   run("'x<0.0625 ? 1 : 0' -d x=0:1 --samplers random --max-n 64");
   EXPECT_THAT(out("x_0_0625___1___0.json"), Not(HasSubstr("\"replicates\": 64,")));
 }
@@ -162,7 +163,7 @@ TEST_F(Converge, PointsFile_IsOneMoreSampler) {
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, HasSubstr("p.csv       RMS error "));
   EXPECT_THAT(r.output, HasSubstr("at N = 128, ")) << "the largest power of two that the file holds";
-  // A file with the name of a sampler is not that sampler.
+  // A file named like a sampler is not that sampler.
   EXPECT_THAT(run("pi --points-file '" + write("sobol", halton) + "' --samplers sobol --max-n 128").output,
               HasSubstr("./sobol     RMS error "));
   expect_refused("ball_3d --points-file '" + good + "'", "p.csv: 2 columns; ball_3d has 3 dimensions");
@@ -177,7 +178,7 @@ TEST_F(Converge, Plugin_IntegrandsAreMeasured) {
   const ProcessResult r = run(plugin + "Sum Batch --max-n 256");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("x + y over a box"), HasSubstr("Batch\n")));
-  // The same integrand one by one and in batches.
+  // The same integrand, called with single points and in batches.
   const auto errors = [&](const std::string& name) {
     std::string text = out(name + ".csv");
     std::string column;
@@ -243,7 +244,7 @@ TEST_F(Converge, ListExplainsAuto) {
               AllOf(HasSubstr("\n  tree  "), HasSubstr("the best of rqmc, vegas and tree\n")));
 }
 
-// The first of three curves, which the interrupt cuts, is written with the N that it has.
+// The interrupt cuts the first of three curves; it is written with the N that it has finished.
 TEST_F(Converge, CtrlC_KeepsTheInterruptedCurve) {
   const ProcessResult r = support::interrupt_carlo("converge pi --max-n 2e8 --threads 1 -o '" + path("out") +
                                                    "' --report '" + path("page") + "'");

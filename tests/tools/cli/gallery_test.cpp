@@ -1,4 +1,4 @@
-// carlo gallery, run as a user runs it.
+// carlo gallery, run on the command line.
 
 #include <gallery/scenes.h>
 #include <tools/interrupt_carlo.h>
@@ -66,7 +66,7 @@ TEST_F(GalleryCommand, ListPrintsEveryScene) {
   EXPECT_THAT(run.output, HasSubstr("smallpt"));
 }
 
-// A scene that never ends leaves nothing half done.
+// An interrupted scene leaves no partial files.
 TEST_F(GalleryCommand, CtrlCAndSigterm_LeaveNoPartialPicture) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
     const support::ProcessResult run =
@@ -77,7 +77,7 @@ TEST_F(GalleryCommand, CtrlCAndSigterm_LeaveNoPartialPicture) {
   }
 }
 
-// A scene that is named twice would be two parts of the page with one name.
+// A scene named twice is rendered once; the page would otherwise have two parts with one name.
 TEST_F(GalleryCommand, RendersEachSceneOnce) {
   const support::ProcessResult run =
       run_carlo("gallery book1-sky book1-gradient book1-sky --scale 0.05 --spp 1 -o " + path("out"));
@@ -94,7 +94,7 @@ TEST_F(GalleryCommand, RendersEachSceneOnce) {
     EXPECT_EQ(times(page, fmt::format("id=\"{}\"", scene)), 1) << scene;
 }
 
-// All scenes, of which the first is done at once: after it, some of them are, and the page says how many.
+// All scenes, interrupted after the first one, which finishes immediately. The page states how many are finished.
 TEST_F(GalleryCommand, CtrlC_KeepsFinishedPictures) {
   const support::ProcessResult run =
       support::interrupt_carlo("gallery --spp 256 --scale 0.1 -o " + path("out"), "samples/pixel in");
@@ -112,7 +112,7 @@ TEST_F(GalleryCommand, CtrlC_KeepsFinishedPictures) {
   EXPECT_FALSE(fs::exists(path(fmt::format("out/{}.exr", scenes.back().name))));
 }
 
-// The same scene, strategy and samples by either command.
+// Both commands render the same scene with the same strategy and samples.
 TEST_F(GalleryCommand, RenderAcceptsASceneName) {
   const std::string name = "book3-cornell-glass-guided";
   ASSERT_EQ(run_carlo("gallery " + name + " --scale 0.04 --spp 8 --seed 3 -o " + path("out")).exit_code, 0);

@@ -43,7 +43,7 @@ TEST(Expression, BoundsMayBeInfinite) {
     EXPECT_EQ(r.stop, mc::StopReason::converged) << c.expression << " over " << c.box;
     EXPECT_LE(std::abs(r.estimate.value - c.truth), 5 * r.estimate.std_error) << c.expression << " over " << c.box;
   }
-  // The same at all points, and no run ends on what may but look so.
+  // The integrand is constant over the unit cube; the run must not end early on such a coincidence.
   const carlo::UnitCubeIntegral same = carlo::parse_expression("x^-2", "x=1:inf");
   mc::IntegrateOptions few;
   few.max_calls = 10'000;
@@ -66,7 +66,7 @@ TEST(Expression, SupportsAndOrNotIf) {
   EXPECT_EQ(value("not(x > 0) and 1", 0.5), 0);
   EXPECT_EQ(value("if(x > 0, 1/x, 0)", 0), 0) << "the branch that is not chosen is infinite";
   EXPECT_EQ(value("if(x > 0, 1/x, 0)", 4), 0.25);
-  const auto f = carlo::parse_function("land + order*2", {"land", "order"}); // words within names
+  const auto f = carlo::parse_function("land + order*2", {"land", "order"}); // operator words inside names
   EXPECT_EQ(f(std::vector{1.0, 2.0}), 5);
 }
 
@@ -78,7 +78,7 @@ TEST(Expression, VariableNamedLikeAConstantIsAccepted) {
       testing::ThrowsMessage<mc::Error>(testing::HasSubstr("an operator is missing")));
 }
 
-// muParser would set the variable, and go on with what it was set to.
+// muParser would assign to the variable and continue with the new value.
 TEST(Expression, AssignmentIsRejected) {
   const auto parse = [](const char* expression) { carlo::parse_function(expression, {"x", "y"}); };
   for (const char* expression : {"x=3", "(x=0.5)*y", "x = = 3", "x=>3", "x<1 ? y=2 : 1"})
@@ -169,7 +169,7 @@ TEST(Expression, BadInput_IsReportedInOneLine) {
   EXPECT_EQ(message("x", "x=0:1e200,y=0:1e200,z=0:1e-200"), "accepted");
 }
 
-// Against the exact values of an independent program, whose parameters were printed with six digits.
+// Compares with exact values of an independent program, which printed its parameters with six digits.
 TEST(Genz, TrueValues) {
   const double known[] = {-0.296538203498543, 0.330427988733901,  -0.33151717718612,  383.489107994049,
                           5861.82247981009,   3515.1675158421,    0.157652586526151,  0.0191763775830123,
@@ -193,9 +193,9 @@ TEST(Genz, AutomaticMethodReachesItsError) {
   }
 }
 
-// Shares of runs within 1 and 2 standard errors, flagged runs aside. n = 1080 normal errors with known sigma would give
-// .6827 and .9545, Student's t of 24 replicates .6827 and .9475. The bounds are 3.5 binomial standard deviations beyond
-// either: alpha = 5e-4 for each of 20 bounds, so 1 % of the choices of seeds would fail; the seeds are fixed.
+// Shares of unflagged runs within 1 and 2 standard errors. n = 1080 normal errors with known sigma would give .6827 and
+// .9545, Student's t of 24 replicates .6827 and .9475. The bounds are 3.5 binomial standard deviations beyond both
+// values. So alpha = 5e-4 for each of 20 bounds, and 1 % of the choices of seeds would fail; the seeds are fixed.
 TEST(Genz, ErrorBarsAreCalibrated) {
   for (const mc::Method method :
        {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
@@ -241,7 +241,7 @@ TEST(Integrate, CommaSeparatedValues_AreRejected) {
   EXPECT_THAT(support::run_carlo("integrate 'x, x*x' -d x=0:1").output, testing::HasSubstr("has 2 values"));
 }
 
-// It said that the integrand was 0 at every point.
+// Regression test: the message was that the integrand is 0 at every point.
 TEST(Integrate, Underflow_IsNotReportedAsZero) {
   for (const std::string arguments :
        {"x -d x=0:1e-300", "1 '(-x)' -d x=0:1e-200", "'1e-300*exp(-y)' -d x=0:1e-30,y=0:inf"}) {
@@ -283,7 +283,7 @@ TEST(Integrate, NonFiniteValue_ReportsTheVariables) {
 }
 
 TEST(Integrate, CtrlC_PrintsResultSoFar) {
-  for (const std::string method : {"plain", "vegas", "tree"}) { // of which two learn for a while
+  for (const std::string method : {"plain", "vegas", "tree"}) { // the last two first learn for a while
     const support::ProcessResult r =
         support::interrupt_carlo("integrate genz_c0_8d --rel-error 1e-12 --max-calls 1e12 --method " + method);
     EXPECT_EQ(r.exit_code, 130) << r.output;

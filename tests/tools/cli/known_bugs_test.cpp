@@ -1,4 +1,4 @@
-// carlo slips: every slip judged, the right ones beside them, the Cornell boxes, JSON and bad input.
+// carlo slips: verdicts on every bug and its correction, the Cornell boxes, JSON and bad input.
 
 #include <known_bugs/cornell.h>
 #include <known_bugs/known_bugs.h>
@@ -48,7 +48,7 @@ TEST(KnownBugs, NamedBug_PrintsItsStory) {
   }
 }
 
-// A wrong sampler that no test rejects at so small an alpha is reported as missed, and the exit code says so.
+// At so small an alpha no test rejects the wrong sampler. The bug is reported as missed, and the exit code is 1.
 TEST(KnownBugs, UndetectedBug_FailsTheRun) {
   KnownBugsCommandOptions o = bug_options({"P36"}, 8000);
   o.alpha = 1e-200;
@@ -79,7 +79,7 @@ TEST(KnownBugs, BadInput_IsReportedInOneLine) {
   EXPECT_THAT(refusal(old), HasSubstr("carlo known-bugs [BUG...]"));
 }
 
-// What cannot be finished leaves the user's file as it was.
+// A run that cannot finish leaves the user's file unchanged.
 TEST(KnownBugs, OldResultsStayUntilNewOnesAreComplete) {
   KnownBugsCommandOptions o = bug_options({"P1"}, 8000);
   o.json = testing::TempDir() + "/kept.json";
@@ -89,8 +89,8 @@ TEST(KnownBugs, OldResultsStayUntilNewOnesAreComplete) {
   EXPECT_EQ(mc::read_file(o.json), "old");
 }
 
-// The right boxes agree with the reference within five standard errors; the wrong ones are as far off as when each was
-// integrated on its own: +12 % in the ball, -16 % doubled, -21 % light only, -1.7 % half hidden.
+// The correct boxes agree with the reference within five standard errors. The wrong ones have the errors of independent
+// integrations: +12 % in the ball, -16 % doubled, -21 % light only, -1.7 % half hidden.
 TEST(CornellBoxes, CorrectOnesAgreeAndWrongOnesHaveKnownErrors) {
   const auto boxes = carlo::cornell_boxes(60'000, 1, 0);
   ASSERT_EQ(boxes.size(), 7u);

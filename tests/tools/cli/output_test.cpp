@@ -1,4 +1,4 @@
-// What carlo does when an output cannot take what it writes, and when it is no file.
+// carlo with an output that cannot be written, and with an output that is no file.
 
 #include <tools/interrupt_carlo.h>
 #include <tools/run_carlo.h>
@@ -47,8 +47,8 @@ TEST_F(OutputTest, ClosedStandardOutput_IsAnErrorAndTouchesNoFile) {
   EXPECT_THAT(mc::read_file(json), HasSubstr("\"value\"")) << "the file has its content and no line of the output";
 }
 
-// The reader is gone before carlo writes. carlo ends as a program of coreutils does: silent, by SIGPIPE, which a shell
-// reports as 141.
+// The reader closes the pipe before carlo writes. Like a program of coreutils, carlo ends silently by SIGPIPE, which a
+// shell reports as 141.
 TEST_F(OutputTest, AClosedPipeEndsQuietly) {
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   for (const std::string& command : {carlo(""), carlo("--json -"), std::string("'" CARLO_PATH "' --help "),
@@ -70,9 +70,9 @@ TEST_F(OutputTest, DevStdout_AcceptsJson) {
   EXPECT_THAT(mc::read_file(path("both")), AllOf(HasSubstr("calls in"), HasSubstr("\"commit\"")));
 }
 
-// What else is said goes to standard error, and no file "-" is made.
+// All other messages go to standard error, and no file "-" is created.
 TEST_F(OutputTest, Dash_IsStandardOutputForJson) {
-  const auto said = [&](const std::string& arguments) { // on standard output; the rest goes to a file
+  const auto said = [&](const std::string& arguments) { // on standard output; standard error goes to a file
     return support::run("(cd '" + folder.string() + "' && '" CARLO_PATH "' " + arguments + " 2>words)").output;
   };
   const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
@@ -137,7 +137,7 @@ TEST_F(OutputTest, CtrlC_WritesFinishedResults) {
   EXPECT_THAT(run.output, HasSubstr("interrupted: "));
   EXPECT_THAT(mc::read_file(path("v.json")),
               AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false"), HasSubstr("\"name\": ")));
-  // Within a case, of which more samples are asked for than any day has time for.
+  // Interrupts within a case, which has far too many samples to finish.
   const ProcessResult one =
       support::interrupt_carlo("validate CosineHemisphere --threads 1 --samples 1e12", "in a cell");
   EXPECT_EQ(one.exit_code, 130) << one.output;

@@ -1,4 +1,4 @@
-// carlo points: sets by name and from a file, what is written, bad input.
+// carlo points: sets by name and from a file, output files, bad input.
 
 #include <tools/run_carlo.h>
 
@@ -35,7 +35,7 @@ std::vector<std::string> fields(const std::string& line) {
   return found;
 }
 
-// The values of a column, by its name.
+// The values of a named column.
 std::vector<std::string> column(const std::string& file, const std::string& name) {
   std::istringstream text(mc::read_file(file));
   std::string line;
@@ -71,7 +71,7 @@ TEST_F(Points, NamedSet_IsAnalysed) {
   EXPECT_EQ(squares(mc::read_file(path("out/points.svg"))), 3u) << "a square for each pair of axes";
 }
 
-// Each figure stands beside those of random and jittered points, for every N. A random set is its own expectation.
+// Each measure has reference values for random and jittered points at every N. A random set matches its own reference.
 TEST_F(Points, EveryFigureHasItsRandomAndJitteredExpectation) {
   const ProcessResult run = run_carlo("points random -n 256 --randomisations 64 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
@@ -98,7 +98,7 @@ TEST_F(Points, EveryFigureHasItsRandomAndJitteredExpectation) {
   EXPECT_EQ(column(path("out/spectrum.csv"), "random").back(), "1");
 }
 
-// t over N, where it is one; what is no power of 2 has none.
+// Plots t over N; a number of points that is no power of 2 has no t.
 TEST_F(Points, PlotsTOfTheNetOverN) {
   const ProcessResult run = run_carlo("points sobol -n 100 --randomisations 1 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
@@ -106,7 +106,7 @@ TEST_F(Points, PlotsTOfTheNetOverN) {
   EXPECT_THAT(mc::read_file(path("out/quality.gp")), HasSubstr("using \"n\":\"t\" "));
 }
 
-// Where the star discrepancy is too dear, bounds are said and drawn.
+// If the star discrepancy is too expensive, bounds are printed and drawn.
 TEST_F(Points, PrintsBoundsOfTheStarDiscrepancy) {
   const ProcessResult run = run_carlo("points sobol -n 64 -d 12 --randomisations 1 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
@@ -118,7 +118,7 @@ TEST_F(Points, PrintsBoundsOfTheStarDiscrepancy) {
                     HasSubstr("title \"this set, bounds\""), HasSubstr("title \"random, bounds\"")));
 }
 
-// What is drawn of many axes is what is said of it.
+// The printed number of axes agrees with the drawing.
 TEST_F(Points, ManyAxes_FirstEightAreDrawn) {
   const ProcessResult run = run_carlo("points sobol -n 16 -d 12 --randomisations 1 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
@@ -129,7 +129,7 @@ TEST_F(Points, ManyAxes_FirstEightAreDrawn) {
   EXPECT_THAT(run_carlo("points --help").output, HasSubstr("first 8 axes"));
 }
 
-// What points.csv holds is the set: read back, it has the same figures.
+// points.csv contains the set: when it is read back, it has the same measures.
 TEST_F(Points, PointsFile_IsAnalysedUnchanged) {
   run_carlo("points halton -n 50 --randomisations 1 -o '" + path("a") + "'");
   const ProcessResult run = run_carlo("points --points-file '" + path("a/points.csv") + "' -o '" + path("b") + "'");
@@ -142,7 +142,7 @@ TEST_F(Points, PointsFile_IsAnalysedUnchanged) {
   EXPECT_EQ(last("a"), last("b"));
 }
 
-// No distance is above 0, so none has a place on a logarithmic axis.
+// No distance exceeds 0, so none can be drawn on a logarithmic axis.
 TEST_F(Points, EqualPoints_HaveDistanceZero) {
   const std::string twins = write("twins.csv", "0.25,0.5\n0.75,0.125\n0.25,0.5\n");
   const ProcessResult run = run_carlo("points --points-file '" + twins + "' -o '" + path("out") + "'");

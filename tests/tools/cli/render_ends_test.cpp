@@ -1,4 +1,4 @@
-// When carlo render ends: at an error, by time, or interrupted.
+// End conditions of carlo render: a target error, a time, or an interrupt.
 
 #include <tools/interrupt_carlo.h>
 
@@ -54,7 +54,7 @@ TEST_F(RenderEnds, StopsAtTimeOrErrorWhicheverComesFirst) {
   EXPECT_THAT(by_time.output, HasSubstr("the error of 1e-07 % " + late));
 }
 
-// Whoever waits sees what for.
+// The progress line explains why sampling continues.
 TEST_F(RenderEnds, ProgressExplainsSamplingBelowTheTargetError) {
   const support::ProcessResult run = support::interrupt_carlo(
       "render book3-cornell-glass --size 64x64 --strategy mis --target-error 0.5 -o " + path("a.exr"),
@@ -63,7 +63,7 @@ TEST_F(RenderEnds, ProgressExplainsSamplingBelowTheTargetError) {
   EXPECT_THAT(run.output, ContainsRegex("left  error reached, [0-9.]+ % undecided: on to 5 %"));
 }
 
-// In the first pass, over pixels that take long.
+// Interrupts the first pass, in which pixels take long.
 TEST_F(RenderEnds, IncompletePass_IsNotAdded) {
   const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
   const support::ProcessResult first = support::interrupt_carlo(line + " --spp 1000000");

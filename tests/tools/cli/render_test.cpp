@@ -1,4 +1,4 @@
-// carlo render, run as a user runs it.
+// carlo render, run on the command line.
 
 #include <tools/run_carlo.h>
 
@@ -23,7 +23,7 @@ using testing::Not;
 const std::string scenes = MC_SOURCE_DIR "/librender/scenes/";
 
 struct RenderCommand : support::ScratchTest {
-  // One line on stderr, exit 2, and no file where the picture would be.
+  // Expects one line on stderr, exit code 2, and no picture file.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
     const support::ProcessResult run = run_carlo("render " + arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.output;
@@ -82,7 +82,7 @@ TEST_F(RenderCommand, BadInput_IsReportedInOneLine) {
   expect_refused(scenes + "cbox.xml -o " + path("out.gif"), {".gif", ".exr, .pfm or .png"});
 }
 
-// A folder stands where the file should go: true of root as well, whom permissions do not stop.
+// A folder has the name of the output file. This also fails for root, who may ignore permissions.
 TEST_F(RenderCommand, UnwritableOutput_IsReportedInOneLine) {
   std::filesystem::create_directory(path("taken.pfm"));
   const support::ProcessResult run =
@@ -107,7 +107,7 @@ TEST_F(RenderCommand, WritesLayers) {
   EXPECT_EQ(layers.at("Z")[0], HUGE_VALF);
 }
 
-// As bright as it is: middle grey where the picture's middle is.
+// The PNG has the tone-mapped radiance; with automatic exposure the picture's mean becomes middle grey.
 TEST_F(RenderCommand, AppliesToneToPng) {
   const std::string start = "render " + scenes + "sphere-light.xml --size 8x8 --spp 4 -o ";
   for (const char* tone : {"", " --tone reinhard", " --tone filmic --exposure auto", " --exposure auto"}) {
@@ -125,7 +125,7 @@ TEST_F(RenderCommand, AppliesToneToPng) {
   }
 }
 
-// Two runs of 8 samples are a picture of 16: other samples than the first, and the variance of them all.
+// Two runs of 8 samples give a picture of 16: the samples differ, and the variance covers all of them.
 TEST_F(RenderCommand, Resume_AddsSamples) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 16x12 --spp 8 -o " + path("r.exr");
   ASSERT_EQ(run_carlo(line + " --layers").exit_code, 0);
@@ -160,7 +160,7 @@ TEST_F(RenderCommand, Resume_AddsSamples) {
   refused(scenes + "sphere-light.xml --size 8x8 --spp 8 --resume -o " + path("r.exr"), "has 16x12 pixels");
 }
 
-// What one sample per pixel does not know is not known of the sum either, and that is said.
+// One sample per pixel gives no variance, so the sum has none either, and the output states it.
 TEST_F(RenderCommand, Resume_FromOneSampleHasNoErrorBar) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 8x8 -o " + path("r.EXR");
   ASSERT_EQ(run_carlo(line + " --spp 1").exit_code, 0);
@@ -197,7 +197,7 @@ TEST_F(RenderCommand, SceneFiles_AreNotOverwritten) {
   EXPECT_EQ(mc::read_file(path("sky.exr")), before);
 }
 
-// The mean of pictures of different things is a picture of nothing.
+// Pictures of different scenes are not averaged.
 TEST_F(RenderCommand, Resume_RejectsAnotherPicture) {
   std::string text = mc::read_file(scenes + "sphere-light.xml");
   const auto put = [&](const std::string& old, const std::string& now) {
@@ -268,7 +268,7 @@ TEST_F(RenderCommand, WritesIntervals) {
   EXPECT_GT(sum, 0);
 }
 
-// A mesh needs no scene file; a part of its picture is that of the whole.
+// A mesh needs no scene file; a crop equals the same part of the whole picture.
 TEST_F(RenderCommand, AcceptsAMeshAndACrop) {
   const std::string mesh = scenes + "meshes/torus.ply --size 24x16 --spp 8 -o ";
   ASSERT_EQ(run_carlo("render " + mesh + path("whole.exr")).exit_code, 0);
@@ -281,7 +281,7 @@ TEST_F(RenderCommand, AcceptsAMeshAndACrop) {
   EXPECT_GT(whole.at(12, 8).sum(), 0);
 }
 
-// A pebble in a scene a thousand kilometres wide is more than floats can hold.
+// Float cannot resolve a pebble in a scene a thousand kilometres wide.
 TEST_F(RenderCommand, SceneTooLargeForFloat_IsWarnedAbout) {
   const std::string start = R"(<scene version="0.5.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>
     <emitter type="constant"/><shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>

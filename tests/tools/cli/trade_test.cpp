@@ -1,4 +1,4 @@
-// carlo trade: errors, budgets, what is written, and bad input. Times are not asserted.
+// carlo trade: errors, budgets, output files, and bad input. Times are not asserted.
 
 #include <tools/interrupt_carlo.h>
 #include <tools/run_carlo.h>
@@ -75,7 +75,7 @@ TEST_F(TradeCommand, CtrlC_PrintsResultSoFar) {
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("random,16,"));
 }
 
-// Errors of 0 have no place on logarithmic axes.
+// Errors of 0 cannot be drawn on logarithmic axes.
 TEST_F(TradeCommand, ExactIntegral_IsNotPlotted) {
   const ProcessResult r = run("'3+0*x' -d x=0:1 --max-n 64 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
@@ -139,13 +139,14 @@ TEST_F(TradeCommand, Scene_ExcludesStrategiesThatMissLights) {
   const std::string hard = MC_SOURCE_DIR "/librender/scenes/hard-shadows.xml --size 4x3 --samplers sobol --max-spp 32 ";
   const ProcessResult r = run(hard + "--cost rays --error 0.5");
   EXPECT_EQ(r.exit_code, 0) << r.output;
-  // nee and mis; even, adaptive, both with tiles. Chance meets no point light: there is no plain Monte Carlo.
+  // nee and mis; even, adaptive, both with tiles. BSDF sampling cannot hit a point light, so there is no plain Monte
+  // Carlo.
   EXPECT_THAT(r.output, AllOf(HasSubstr("hard-shadows: 8 ways"), Not(HasSubstr("plain Monte Carlo"))));
   expect_refused(hard + "--strategies mixture", "mixture");
 }
 
 TEST_F(TradeCommand, Scene_OfAovs) {
-  // Without any light: in the dark if it were not ambient occlusion.
+  // The scene has no light; only ambient occlusion makes the picture bright.
   const ProcessResult r =
       run(MC_SOURCE_DIR "/librender/scenes/ambient-occlusion.xml --size 4x3 --samplers sobol --max-spp 32 "
                         "--strategies mis --cost rays --error 0.5");

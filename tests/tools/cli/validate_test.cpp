@@ -89,7 +89,7 @@ TEST(Validate, JunitIsWellFormed) {
                              HasSubstr("</testsuite>")));
 }
 
-// A thousand outcomes and as many samples: a density may be off by any factor.
+// A thousand outcomes and equally many samples: a density may be wrong by any factor.
 TEST(Validate, DetectableErrorAbove100Percent_IsCapped) {
   ValidateCommandOptions o = few({"TableDist1D(outcomes, n=1000)"});
   o.samples = 1000;

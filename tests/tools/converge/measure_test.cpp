@@ -1,4 +1,4 @@
-// Errors measured against a truth, and without one.
+// Errors measured with a given truth and with an estimated one.
 
 #include <converge/measure.h>
 
@@ -31,8 +31,8 @@ std::vector<carlo::SamplingMethod> methods(std::initializer_list<const char*> na
   return all;
 }
 
-// Var = 1 / (12 N) and 1 / (12 N^3). The 95 % intervals of 7 N and 2 ways: fewer than 10 hits of 14 has probability
-// 4e-4.
+// Var = 1 / (12 N) and 1 / (12 N^3). There are 14 intervals of 95 %, for 7 N and 2 methods. Fewer than 10 hits have
+// probability 4e-4.
 TEST(Measure, ErrorsMatchKnownVariances) {
   const auto list = methods({"random", "stratified"});
   for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
@@ -52,8 +52,8 @@ TEST(Measure, ErrorsMatchKnownVariances) {
   }
 }
 
-// x^-.45, whose errors have no fourth moment: what is missing of them is known by the tail. Of 180 bands 85 missed when
-// they were told by the replicates alone, and 23 do.
+// The errors of x^-.45 have no fourth moment, so the band includes the tail estimate. Without the tail estimate 85 of
+// 180 bands miss, with it 23.
 TEST(Measure, HeavyTail_WidensBands) {
   UnitCubeIntegral e = ramp(1 / 0.55);
   e.f = [](UnitCubeIntegral::UnitPoint u) { return std::pow(u[0], -0.45); };
@@ -72,7 +72,8 @@ TEST(Measure, HeavyTail_WidensBands) {
   EXPECT_LE(missed, 18);
 }
 
-// Of 24 slopes each may lie twice its 95 % interval away, four deviations: by chance one does in .15 % of runs.
+// Each of 24 slopes may be off by twice its 95 % interval, four deviations. By chance one exceeds this in .15 % of
+// runs.
 TEST(Measure, NamedIntegralsConvergeAtTheirTheoreticalRates) {
   const auto list = methods({"random", "stratified", "sobol"});
   int known = 0;
@@ -89,7 +90,7 @@ TEST(Measure, NamedIntegralsConvergeAtTheirTheoreticalRates) {
   EXPECT_EQ(known, 27);
 }
 
-// 49 shares of 16/49 do not add up to 16.
+// 49 shares of 16/49 do not add up to 16 in floating point.
 TEST(Measure, NIsNotRounded) {
   const auto list = methods({"random"});
   const Measurement m = measure_convergence(in_process_target(ramp(0.5)), list, {.max_n = 64, .replicates = 49});
@@ -98,7 +99,7 @@ TEST(Measure, NIsNotRounded) {
   EXPECT_DOUBLE_EQ(m.curves[0].fit_center, 32);
 }
 
-// The reference is ten times surer than the smallest error.
+// The reference is ten times as precise as the smallest error.
 TEST(Measure, ReferenceIsMoreAccurateThanTheCurves) {
   const auto list = methods({"random", "sobol"});
   const Measurement m = measure_convergence(in_process_target(ramp(std::numeric_limits<double>::quiet_NaN())), list,
@@ -125,7 +126,7 @@ TEST(Measure, ConstantsAreExact) {
   EXPECT_FALSE(m.curves[0].power_law);
 }
 
-// The same digits in units of any size, whether the truth is known or not: nothing is exact but what rounds.
+// Scaling by a power of two keeps all digits, with a given or an estimated truth. Only rounding errors count as exact.
 TEST(Measure, ResultsAreInvariantToScale) {
   const auto list = methods({"random", "stratified", "sobol"});
   for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
@@ -156,7 +157,7 @@ TEST(Measure, WrongSmallTruth_IsWarnedAbout) {
   EXPECT_NE(measure_convergence(in_process_target(e), list, {.max_n = 1024}).truth_warning, "");
 }
 
-// What cancels at every N is exact by the size of what is summed, not by that of the sum.
+// The sum cancels at every N. Rounding is relative to the size of the summands, not of the sum.
 TEST(Measure, CancellingIntegral_IsExactToRounding) {
   const auto list = methods({"lattice"});
   for (const double scale : {1e-200, 1.0, 1e200}) {
@@ -166,7 +167,7 @@ TEST(Measure, CancellingIntegral_IsExactToRounding) {
   }
 }
 
-// The twelfth step is the fifth of the second curve, behind seven of the first: N = 16 to 256.
+// The twelfth step is the fifth of the second curve, after seven of the first: N = 16 to 256.
 TEST(Measure, Interrupt_LosesOnlyTheCurrentN) {
   const auto list = methods({"random", "stratified", "sobol"});
   for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
@@ -186,7 +187,7 @@ TEST(Measure, Interrupt_LosesOnlyTheCurrentN) {
   }
 }
 
-// The replicates of the reference, 128, are then of no use: those of the curve stand in.
+// The interrupt cuts the 128 replicates of the reference. The replicates of the curve are used instead.
 TEST(Measure, InterruptedReference_HasLargerError) {
   carlo::IntegralTarget target = carlo::in_process_target(ramp(std::numeric_limits<double>::quiet_NaN()));
   std::atomic<bool> cancel = false;
@@ -213,7 +214,8 @@ TEST(Measure, InterruptBeforeReference_HasNoCurves) {
   EXPECT_TRUE(m.curves.empty());
 }
 
-// Of 20 seeds 17 name the infinite variance of x^-1/2, by a logarithm alone, all that of x^-.7, and none that of x^-.4.
+// The infinite variance of x^-1/2, which diverges only logarithmically, is reported for 17 of 20 seeds. The infinite
+// variance of x^-.7 is reported for all seeds, and none is reported for x^-.4.
 TEST(Measure, InfiniteVariance_IsReported) {
   const auto list = methods({"random"});
   const auto named = [&](double power) {
@@ -232,8 +234,8 @@ TEST(Measure, InfiniteVariance_IsReported) {
   EXPECT_EQ(named(1), 0);
 }
 
-// A reference of replicates is doubted where one of them holds over half of their variance again and again: of 1/x, not
-// of 1/sqrt(x), whose variance is infinite too but only just, nor of what is smooth.
+// An estimated reference is doubted if a single replicate repeatedly holds over half of the variance. This is true for
+// 1/x. It is false for smooth functions and for 1/sqrt(x), which has a barely infinite variance.
 TEST(Measure, DivergentIntegral_ReferenceIsWarnedAbout) {
   const auto list = methods({"random", "stratified", "sobol"});
   const auto doubt = [&](double power) {
@@ -247,8 +249,8 @@ TEST(Measure, DivergentIntegral_ReferenceIsWarnedAbout) {
   EXPECT_EQ(doubt(2), "");
 }
 
-// Replicates of a jump that all meet the same number of points say nothing of the truth, however well they agree: the
-// reference is as good as it says for jumps at places where most do.
+// Replicates of a jump can agree because all have the same number of points on one side. Such agreement is no evidence
+// for the truth. The reference must have its stated error for jumps at places where most replicates agree.
 TEST(Measure, ReplicatesThatAgreeByChance_AreNotTheReference) {
   const auto list = methods({"random", "stratified", "sobol", "lattice"});
   int off = 0;
@@ -264,8 +266,8 @@ TEST(Measure, ReplicatesThatAgreeByChance_AreNotTheReference) {
   EXPECT_LE(off, 1) << "one of 20 beyond three standard errors";
 }
 
-// Stratified and Sobol' points know a jump at 1/2 exactly, and the reference does not: it is of random ones, the only
-// ones that ever differ.
+// Stratified and Sobol' points integrate a jump at 1/2 exactly. The reference uses random points, the only ones with
+// replicates that differ, so its error is larger.
 TEST(Measure, ErrorBelowReferenceError_IsAnUpperBound) {
   const auto list = methods({"random", "stratified", "sobol"});
   UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
@@ -283,9 +285,9 @@ TEST(Measure, ErrorBelowReferenceError_IsAnUpperBound) {
   }
 }
 
-// x^-.15 by stratified points, whose errors are those of the cell at 0, of kurtosis 30: a set of them shows little
-// of its tail. Of 420 bands of 95 %, whose neighbours share what they know, 385 hold; by the kurtosis of each set alone
-// 320 did.
+// x^-.15 with stratified points: the errors come from the cell at 0 and have kurtosis 30. One set of replicates shows
+// little of this tail. Neighbouring bands share their kurtosis: 385 of 420 bands of 95 % hold. With the kurtosis of
+// each set alone 320 hold.
 TEST(Measure, BandsCoverErrorsOfHeavyTails) {
   constexpr double a = 0.15;
   const auto moment = [](double from, double to, double power) {
@@ -312,7 +314,7 @@ TEST(Measure, BandsCoverErrorsOfHeavyTails) {
   EXPECT_GE(hold, 385);
 }
 
-// Few replicates of what is harmless: one of eight that holds half of the variance is nothing to speak of.
+// With few replicates of a smooth integrand, one of eight may hold half of the variance by chance.
 TEST(Measure, FewReplicates_GiveNoWarning) {
   const auto list = methods({"random"});
   UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());

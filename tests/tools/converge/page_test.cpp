@@ -1,4 +1,4 @@
-// The page of carlo converge and carlo trade: integrals and scenes, and what a headless browser makes of it.
+// The page of carlo converge and carlo trade: integrals and scenes, and the result in a headless browser.
 
 #include <converge/page.h>
 
@@ -26,7 +26,7 @@ SamplingMethod named(const char* name) {
   return method;
 }
 
-/// Two ways to render a scene of 4x3 pixels, the second a biased one.
+/// Two methods on a scene of 4x3 pixels, the second with a bias.
 struct PictureExample {
   IntegralTarget target;
   PictureMeasurement pictures;
@@ -107,7 +107,7 @@ TEST_F(ConvergencePage, IntegralsShowNoPicturesAndNoBias) {
               AllOf(Not(HasSubstr("<svg")), HasSubstr("<td>exact</td>")));
 }
 
-// 1, 2 and 5 stand on an axis that spans a decade or two.
+// An axis that spans a decade or two has ticks at 1, 2 and 5.
 TEST_F(ConvergencePage, ShortAxesHaveTicksWithinADecade) {
   const PictureExample e;
   const std::string page = this->page(converge_header("carlo converge a.xml"), {e.measured()});

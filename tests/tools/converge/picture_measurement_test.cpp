@@ -1,4 +1,4 @@
-// Pictures of a scene by several ways: errors, slopes, bias, and that the choice repeats.
+// Pictures of a scene by several methods: errors, slopes, bias, and reproducible choices.
 
 #include <converge/picture_measurement.h>
 
@@ -25,7 +25,7 @@ render::SceneFile scene(const char* name) {
 }
 
 struct Caustics : support::ScratchTest {
-  // A ball of glass under a lamp: here and there a pixel has most of its light from paths that few samples find.
+  // A glass ball under a lamp: a few pixels receive most of their light from paths that are rarely sampled.
   render::SceneFile ball() const {
     return render::read_mitsuba(write("ball.xml", R"(<scene version="0.6.0"><integrator type="path"/>
       <sensor type="perspective"><float name="fov" value="40"/><transform name="toWorld">
@@ -44,7 +44,7 @@ struct Caustics : support::ScratchTest {
 };
 
 struct Lamp : support::ScratchTest {
-  // sphere-light.xml, its light of another radiance.
+  // sphere-light.xml with another radiance of its light.
   render::SceneFile of(const std::string& radiance) const {
     std::string text = mc::read_file(MC_SOURCE_DIR "/librender/scenes/sphere-light.xml");
     const std::string name = "name=\"radiance\" value=\"";
@@ -55,7 +55,7 @@ struct Lamp : support::ScratchTest {
 
 constexpr auto independent = render::PixelSampler::independent, sobol = render::PixelSampler::sobol;
 
-// Independent samples fall as N^-1/2; light found after two edges only is a bias, told from noise.
+// Errors of independent samples fall as N^-1/2. A limit of two edges causes a bias, which is separated from noise.
 TEST(PictureMeasurement, SeparatesBiasFromNoise) {
   const render::SceneFile file = scene("cbox");
   PictureOptions o{.width = 12, .height = 12, .max_spp = 64, .cost_rays = true};
@@ -64,7 +64,7 @@ TEST(PictureMeasurement, SeparatesBiasFromNoise) {
   ASSERT_EQ(p.measurement.curves.size(), 3u);
   const ConvergenceCurve& random = p.measurement.curves[0];
   ASSERT_TRUE(random.power_law);
-  // Within twice the 95 % interval: one seed of 10,000 is not.
+  // Within twice the 95 % interval, which one seed of 10,000 exceeds.
   EXPECT_LE(2 * random.power_law->lo - random.power_law->slope, -0.5);
   EXPECT_GE(2 * random.power_law->hi - random.power_law->slope, -0.5);
   EXPECT_EQ(random.errors.size(), 5u); // 4, 8, 16, 32, 64
@@ -76,16 +76,16 @@ TEST(PictureMeasurement, SeparatesBiasFromNoise) {
   EXPECT_LE(p.reference_error, 0.12 * p.measurement.curves[1].errors.back().rms);
   for (const std::size_t unbiased : {0u, 1u}) EXPECT_EQ(p.biases[unbiased].bias.lo, 0) << unbiased;
   const Bias& cut = p.biases[2];
-  EXPECT_GE(cut.bias.lo, 0.1); // a third of the light comes by longer paths
+  EXPECT_GE(cut.bias.lo, 0.1); // a third of the light arrives by longer paths
   ASSERT_TRUE(cut.break_even_error);
   EXPECT_GE(cut.break_even_error->value, cut.bias.value);
   EXPECT_LE(cut.break_even_error->lo, cut.break_even_error->value);
   EXPECT_GE(cut.break_even_error->hi, cut.break_even_error->value);
-  for (const ConvergenceCurve& c : p.measurement.curves) // 8 of each, and more where they spread
+  for (const ConvergenceCurve& c : p.measurement.curves) // at least 8 each, more where they vary
     for (const Replicates& r : c.replicates) EXPECT_GE(r.values.size(), 8u);
 }
 
-// What all pictures miss alike shows no noise, and was taken for a bias at seven of twenty seeds, of which these are.
+// Light that all pictures miss shows no noise. For seven of twenty seeds, including these, it was reported as bias.
 TEST_F(Caustics, RarelySampledLightIsNotBias) {
   const render::SceneFile file = ball();
   const std::vector<RenderMethod> methods = {method("mixture", independent), method("nee", independent),
@@ -97,7 +97,7 @@ TEST_F(Caustics, RarelySampledLightIsNotBias) {
   }
 }
 
-// What was measured with fewer samples stands, and is what a run without an interrupt finds there.
+// Finished levels are kept and equal the levels of a run without an interrupt.
 TEST(PictureMeasurement, Interrupt_LosesOnlyTheCurrentLevel) {
   const render::SceneFile file = scene("cbox");
   const std::vector<RenderMethod> methods = {method("mis", sobol),
@@ -110,7 +110,7 @@ TEST(PictureMeasurement, Interrupt_LosesOnlyTheCurrentLevel) {
   o.progress = [&](double, const std::string& where) { stop = stop || where.ends_with(" 32 spp"); };
   const PictureMeasurement cut = measure_pictures(file, methods, o);
   EXPECT_TRUE(cut.measurement.interrupted);
-  ASSERT_EQ(cut.methods.size(), 1u); // adaptive spending begins at 32
+  ASSERT_EQ(cut.methods.size(), 1u); // adaptive sampling begins at 32
   ASSERT_EQ(cut.measurement.curves[0].errors.size(), 3u);
   EXPECT_EQ(cut.biases[0].n, 16);
   EXPECT_FALSE(whole.measurement.interrupted);
@@ -118,7 +118,8 @@ TEST(PictureMeasurement, Interrupt_LosesOnlyTheCurrentLevel) {
     EXPECT_EQ(cut.measurement.curves[0].errors[n].rms, whole.measurement.curves[0].errors[n].rms);
 }
 
-// In a white furnace paths that follow a white sphere know every pixel, and the reference only to rounding.
+// In a white furnace, BSDF-sampled paths at a white sphere are exact for every pixel, and the reference is exact up to
+// rounding.
 TEST_F(Lamp, ErrorBelowReferenceNoise_IsAnUpperBound) {
   const render::SceneFile file = render::read_mitsuba(write("furnace.xml", R"(<scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="2"/></integrator>
@@ -140,7 +141,7 @@ TEST_F(Lamp, ErrorBelowReferenceNoise_IsAnUpperBound) {
   for (const mc::RmsError& e : p.measurement.curves[1].errors) EXPECT_FALSE(e.is_bound || e.lo == 0);
 }
 
-// A million times as much light is the same noise: errors, slopes and biases do not depend on its unit.
+// A million times the radiance has the same relative noise: errors, slopes and biases do not depend on the unit.
 TEST_F(Lamp, ResultsAreInvariantToRadianceScale) {
   const std::vector<RenderMethod> methods = {
       method("mis", independent), method("mis", sobol, -1, SampleAllocation::adaptive), method("mis", sobol, 1)};
@@ -163,7 +164,7 @@ TEST_F(Lamp, ResultsAreInvariantToRadianceScale) {
   }
 }
 
-// Paths of one edge meet no point light: no noise, and the bias is everything.
+// Paths of one edge never hit a point light: they have no noise, and the error is only bias.
 TEST(PictureMeasurement, NoiselessMethod_BreaksEvenAtItsBias) {
   const render::SceneFile file = scene("hard-shadows");
   const std::vector<RenderMethod> methods = {method("mis", sobol), method("mis", sobol, 1)};
@@ -186,8 +187,8 @@ TEST(PictureMeasurement, TimeLimit_IsNotAnInterrupt) {
   EXPECT_EQ(p.measurement.curves[0].errors.size(), 1u);
 }
 
-// Two runs with other seeds and costs that no clock makes: they choose the same, or each says of the other's choice
-// that it is as good.
+// Two runs with different seeds and with costs in rays. They choose the same method, or each reports the other's choice
+// as a tie.
 TEST(PictureMeasurement, ChoiceIsReproducible) {
   const render::SceneFile file = scene("cbox");
   const std::vector<RenderMethod> methods = {method("mis", independent), method("nee", sobol), method("mis", sobol)};

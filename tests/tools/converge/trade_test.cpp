@@ -1,4 +1,4 @@
-// What is chosen, on curves and clocks that are known.
+// Choices on curves with exact power laws and fixed costs.
 
 #include <converge/trade.h>
 
@@ -22,13 +22,13 @@ ConvergenceCurve power_law(const char* name, double c, double e) {
   return curve;
 }
 
-// 10 ns for each evaluation, or 40 of a lattice; known to 5 %.
+// 10 ns for each evaluation, 40 for a lattice; with an interval of 5 %.
 IntervalEstimate clock(const ConvergenceCurve& c, double) {
   const double t = c.method->name == "lattice" ? 40e-9 : 10e-9;
   return {t, 0.95 * t, 1.05 * t};
 }
 
-// Outlives the offers, which point into it.
+// Outlives the candidates, which point into it.
 const Measurement& measured() {
   static const Measurement all = [] {
     Measurement m;
@@ -48,17 +48,17 @@ TEST(Trade, EvaluationsToReachIsTheCrossingOfTheCurve) {
   EXPECT_NEAR(n->hi, 1100, 1e-6);
   EXPECT_FALSE(evaluations_to_reach(c, 1e-4));
   EXPECT_EQ(evaluations_to_reach(c, 1)->value, 16) << "it cannot take fewer";
-  // A dip that does not last is no arrival.
+  // A temporary dip does not reach the error.
   ConvergenceCurve dips = c;
   dips.errors[2].rms = 1e-9;
   EXPECT_NEAR(evaluations_to_reach(dips, 1e-3)->value, 1000, 1e-6);
-  // The upper edge that never comes so low goes on as slowly as plain Monte Carlo.
+  // If the upper edge does not fall so low, it is extrapolated with the rate of plain Monte Carlo.
   const auto last = evaluations_to_reach(c, 1.05 / 4096);
   EXPECT_GE(last->hi, 4096);
   EXPECT_LE(last->lo, last->value);
 }
 
-// Whose lower edge comes so low may have reached it; what else it takes is counted as for plain Monte Carlo.
+// A method reaches the error if its lower edge does. Its additional evaluations are computed as for plain Monte Carlo.
 TEST(Trade, MethodWhoseBandReachesTheError_IsACandidate) {
   const ConvergenceCurve c = power_law("sobol", 1, 1);
   const auto n = evaluations_to_reach(c, 0.95 / 4096);
@@ -67,7 +67,7 @@ TEST(Trade, MethodWhoseBandReachesTheError_IsACandidate) {
   EXPECT_LE(n->lo, 4096);
 }
 
-// One that is known badly may be far below its figure, but its lower edge alone reaches nothing.
+// An uncertain error may be far below its value, but a low lower edge alone does not reach a goal.
 TEST(Trade, WideBand_DoesNotReachEveryError) {
   ConvergenceCurve c = power_law("sobol", 1, 1);
   for (mc::RmsError& e : c.errors) e.lo = 0;
@@ -86,7 +86,7 @@ TEST(Trade, ExactMethod_IsTheOnlyBest) {
   EXPECT_FALSE(f.gain);
 }
 
-// A way that is known well stands between two that are not: of these the second ties with the first all the same.
+// A precise curve lies between two imprecise ones. The second imprecise curve still ties with the first.
 TEST(Trade, TiesRankFirst) {
   Measurement m;
   m.curves = {power_law("sobol", 1, 1), power_law("lattice", 1.2, 1), power_law("halton", 1.4, 1)};
@@ -117,14 +117,14 @@ TEST(Trade, RanksByCostForAnError) {
   EXPECT_NEAR(f.candidates[0].seconds.lo, 1e-5 * 0.9 * 0.95, 1e-10);
   EXPECT_NEAR(f.candidates[0].seconds.hi, 1e-5 * 1.1 * 1.05, 1e-10);
   EXPECT_EQ(count_ties(f.candidates, &TradeCandidate::seconds), 2u) << "2 % apart, known to 15 %";
-  // Plain Monte Carlo needs 1e6 evaluations, beyond what was measured: 1000 times as many.
+  // Plain Monte Carlo needs 1e6 evaluations, beyond the measured range: 1000 times the evaluations of the best method.
   ASSERT_EQ(f.nearest.size(), 1u);
   EXPECT_NEAR(f.gain->value, 1000, 1e-6);
   EXPECT_LT(f.gain->lo, 1000);
   EXPECT_GT(f.gain->hi, 1000);
 }
 
-// Each takes its fewest evaluations, 16: plain Monte Carlo no fewer.
+// Each method takes its smallest N, 16; plain Monte Carlo does not take fewer.
 TEST(Trade, ErrorReachedAtTheFewestN_HasNoGain) {
   const carlo::CandidatesForError f = candidates_for_error(measured(), 2, clock);
   ASSERT_EQ(f.candidates.size(), 4u);
@@ -152,8 +152,8 @@ TEST(Trade, RanksByErrorForATime) {
   EXPECT_TRUE(candidates_for_time(measured(), 1e-9, clock).candidates.empty());
 }
 
-// Beyond N = 4096, 41 us: plain Monte Carlo goes on by its law, the others are at most as bad as there, and which of
-// them is the best is not told from who ended sooner.
+// Beyond N = 4096, 41 us: plain Monte Carlo is extrapolated by its law. The errors of the other methods are upper
+// bounds. The choice of the best does not depend on which curve ended earlier.
 TEST(Trade, MethodsLimitedByMaxN_HaveAnUpperErrorBound) {
   const carlo::CandidatesForTime f = candidates_for_time(measured(), 4096e-6, clock);
   ASSERT_EQ(f.candidates.size(), 4u);
@@ -170,7 +170,7 @@ TEST(Trade, MethodsLimitedByMaxN_HaveAnUpperErrorBound) {
   for (const TradeCandidate& o : candidates_for_time(measured(), 1e-5, clock).candidates) EXPECT_FALSE(o.is_largest_n);
 }
 
-// Of Sobol' points from N = 1024 on it is known only that they err by no more than the reference does.
+// From N = 1024 on, the error of the Sobol' points is only bounded by the error of the reference.
 TEST(Trade, RatiosOfBoundsAreBounds) {
   Measurement m = measured();
   for (mc::RmsError& e : m.curves[1].errors) {
@@ -193,14 +193,15 @@ TEST(Trade, RatiosOfBoundsAreBounds) {
   EXPECT_TRUE(s.candidates[0].error.is_upper_bound());
   EXPECT_EQ(s.candidates[0].error.hi, 1e-3);
   EXPECT_TRUE(s.gain && s.gain->is_lower_bound());
-  // Between a figure and a bound, too.
+  // Also between a value and a bound.
   EXPECT_TRUE(candidates_for_time(m, 7e-6, clock).candidates[0].error.is_upper_bound());
   EXPECT_FALSE(candidates_for_time(m, 4e-6, clock).candidates[0].error.is_upper_bound());
   for (mc::RmsError& e : m.curves[0].errors) e.lo = 0;
   EXPECT_FALSE(candidates_for_time(m, 20e-6, clock).gain) << "of two bounds there is no ratio";
 }
 
-// Seconds of a second run, or of the first where that is interrupted. The clock goes on by the number of the call.
+// Uses the seconds of a second run, or of the first if the second is interrupted. The fake clock advances with each
+// call.
 TEST(Trade, CandidatesAreTimedInterleaved) {
   carlo::IntegralTarget target;
   std::vector<std::string> order;
@@ -221,8 +222,8 @@ TEST(Trade, CandidatesAreTimedInterleaved) {
   EXPECT_EQ(order[0], "random");
   EXPECT_EQ(order[1], "sobol");
   EXPECT_EQ(order[2], "random");
-  EXPECT_NEAR(again(m.curves[0], 1000).value, 9e-9, 1e-15); // of the calls 1, 3, ..., 17
-  EXPECT_NEAR(again(m.curves[1], 1000).lo, 4e-9, 1e-15);    // of the calls 2, 4, ..., 18
+  EXPECT_NEAR(again(m.curves[0], 1000).value, 9e-9, 1e-15); // median of the calls 1, 3, ..., 17
+  EXPECT_NEAR(again(m.curves[1], 1000).lo, 4e-9, 1e-15);    // from the calls 2, 4, ..., 18
   order.clear();
   most = 5;
   const carlo::EvaluationCost before = interleaved_cost(target, m, candidates, 1, &cancel);

@@ -10,7 +10,8 @@
 
 namespace {
 
-// Five standard errors of the difference of two nearly normal means: one in two million for each of four strategies.
+// Allows five standard errors of the difference of two nearly normal means: one failure in two million for each of four
+// strategies.
 TEST(GalleryComparison, StrategiesAgreeUnlessTheyMissLight) {
   const auto file = render::read_mitsuba(carlo::scene_file(carlo::gallery_scene("book3-cornell-white")));
   render::RenderOptions settings;

@@ -13,7 +13,7 @@ Image ramp(int width, int height) {
   return image;
 }
 
-// To the rounding of sums of up to 15 values.
+// Equal up to the rounding of sums of up to 15 values.
 TEST(ContactSheet, ThumbnailPixelIsMeanOfCoveredPixels) {
   const Image small = carlo::thumbnail(ramp(150, 70), 10);
   ASSERT_EQ(small.width, 10);
@@ -28,7 +28,7 @@ TEST(ContactSheet, ThumbnailPixelIsMeanOfCoveredPixels) {
   EXPECT_EQ(carlo::thumbnail(ramp(1000, 1), 11).height, 1);
 }
 
-// Where edges cut pixels, each part counts where it lies.
+// If a thumbnail edge cuts a pixel, each part counts in the thumbnail pixel that covers it.
 TEST(ContactSheet, ThumbnailPreservesMean) {
   for (const int side : {7, 11, 13, 64}) {
     const Image small = carlo::thumbnail(ramp(150, 70), side);
@@ -42,7 +42,7 @@ TEST(ContactSheet, ThumbnailPreservesMean) {
 
 TEST(ContactSheet, PlacesEachPictureInItsCell) {
   std::vector<Image> pictures;
-  for (int i = 0; i < 5; ++i) { // the last is narrow, and the second row lower
+  for (int i = 0; i < 5; ++i) { // the last is narrow, and the second row is lower
     pictures.emplace_back(i == 4 ? 2 : 6, i < 3 ? 6 : 4);
     for (Spectrum& p : pictures.back().pixels) p.setConstant(Float(i + 1));
   }

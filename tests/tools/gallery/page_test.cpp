@@ -1,4 +1,4 @@
-// The page of carlo gallery: what it holds, and what a headless browser makes of it.
+// The page of carlo gallery: its content, and the result in a headless browser.
 
 #include <gallery/page.h>
 

@@ -39,7 +39,8 @@ TEST(GalleryScenes, EachFileIsListedAndCitesItsSource) {
   }
 }
 
-// The book's pair: as many samples at random, and in boxes of the pixel, in as many sets as a render keeps.
+// The book's pair of pictures: random samples, and equally many samples in the strata of each pixel. The strata are
+// split into the number of sets that a render keeps.
 TEST(GalleryScenes, StratifiedPixelsUseTheDocumentedSampler) {
   const carlo::GalleryScene &boxes = carlo::gallery_scene("book3-pixels-stratified"),
                             &chance = carlo::gallery_scene("book3-pixels-random");
@@ -56,7 +57,7 @@ TEST(GalleryScenes, StratifiedPixelsUseTheDocumentedSampler) {
                                      static_cast<unsigned>(boxes.spp) / sets));
 }
 
-// The committed table of the ways to take; bench/scene_trades.py measures them.
+// Every scene file has a row in the committed table of trades; bench/scene_trades.py measures it.
 TEST(GalleryScenes, EachFileHasTradeData) {
   const std::string trades = mc::read_file(MC_SOURCE_DIR "/notebooks-data/trade/scenes.csv");
   for (const carlo::GalleryScene& scene : carlo::gallery()) {

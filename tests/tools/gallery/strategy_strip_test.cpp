@@ -29,7 +29,7 @@ render::RenderOptions tiny() {
   return settings;
 }
 
-// Seven strategies, or the two that find a point of light; six pictures each, whose sides and gaps are 4 pixels.
+// Seven strategies, or the two that find a point light. Each has six pictures; sides and gaps are 4 pixels.
 TEST(StrategyStrip, HasARowForEachStrategy) {
   const render::Image all = carlo::strategy_strip(lit_floor(false), tiny(), {});
   EXPECT_EQ(all.width, 6 * 8 + 4);
@@ -59,9 +59,9 @@ TEST(StrategyStrip, TableComparesEqualSamplesAndEqualTime) {
   EXPECT_THAT(text, HasSubstr("100.00 +- "));
   EXPECT_THAT(text, HasSubstr("misses light"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
-  for (const auto& s : carlo::compare_strategies(scene, tiny(), 4, 4)) // two edges end at the lamp
+  for (const auto& s : carlo::compare_strategies(scene, tiny(), 4, 4)) // paths of two edges end at the lamp
     EXPECT_FALSE(s.misses_light) << s.name;
-  // What has found no light knows nothing, however little its pixels vary.
+  // A strategy that has found no light is not precise, however small its variance.
   auto blind = samples;
   blind[0].mean = {0, 0, 99, 100};
   blind[0].relative_error = blind[0].work = 0;

@@ -30,7 +30,7 @@ TEST_F(Csv, AnyLineEnding_IsAccepted) {
   }
 }
 
-// A first row of numbers is none of names, whatever is wrong with it.
+// A first row of numbers is never read as column names, even if it has errors.
 TEST_F(Csv, NumericFirstRow_IsKept) {
   for (const char* row : {"0.5,0.25", "\"0.5\",\"0.25\"", "\" 0.5 \", 0.25", "+.5,2.5e-1", "0.5,0.25 # \"a\" note"})
     EXPECT_THAT(table(std::string(row) + "\n1,2\n").values, ElementsAre(0.5, 0.25, 1, 2)) << row;
@@ -54,7 +54,7 @@ TEST_F(Csv, DecimalComma_IsRejectedWithRemedy) {
   EXPECT_THAT(refusal("\"0,5,1\",2\n"), HasSubstr("a.csv:1: '0,5,1' is not a number"));
 }
 
-// What the last digit of a number stands for, when programs leave out zeros at the end.
+// The place value of the last digit, if programs omit trailing zeros.
 TEST_F(Csv, Digits_FollowColumn) {
   EXPECT_THAT(table("0.25\n0.5\n0.125\n1\n").digits, ElementsAre(-3, -3, -3, -2)) << "three significant digits";
   EXPECT_THAT(table("0.123456\n1.5\n12.25\n0.00123456\n1e-09\n").digits, ElementsAre(-6, -5, -4, -8, -9))

@@ -1,4 +1,4 @@
-// Sets of parameters and sweeps over them.
+// Parameter sets and sweeps.
 
 #include <input/parameters.h>
 
@@ -21,7 +21,7 @@ TEST(Parameters, ListsAndRanges_AreEveryCombination) {
   EXPECT_THAT(parse_parameters("a=1,2,n=3,4"),
               ElementsAre(ParameterSet{{"a", 1}, {"n", 3}}, ParameterSet{{"a", 1}, {"n", 4}},
                           ParameterSet{{"a", 2}, {"n", 3}}, ParameterSet{{"a", 2}, {"n", 4}}));
-  // Both ends, and 0.3 is 0.3, which 0.1 + 0.1 + 0.1 is not.
+  // A range includes both ends, and 0.3 is exact, unlike 0.1 + 0.1 + 0.1.
   EXPECT_THAT(parse_parameters("a=0.1:0.5:0.1"),
               ElementsAre(ParameterSet{{"a", 0.1}}, ParameterSet{{"a", 0.2}}, ParameterSet{{"a", 0.3}},
                           ParameterSet{{"a", 0.4}}, ParameterSet{{"a", 0.5}}));

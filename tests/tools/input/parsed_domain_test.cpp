@@ -1,4 +1,4 @@
-// Every domain that a text can name: who is in it, its chart there and back, and its measure.
+// Every domain that a text can describe: its points, the round trip through its chart, and its measure.
 
 #include <input/parsed_domain.h>
 
@@ -20,7 +20,7 @@ struct Named {
   const char* text;
   int dim;
   std::size_t columns;
-  double measure; ///< infinite: not tried
+  double measure; ///< infinite: not tested
   mc::PointArray outside;
 };
 
@@ -51,7 +51,7 @@ TEST_P(EveryDomain, ChartRoundTrips) {
       const mc::AnyDomain::Coordinates back = d.chart.to_unit(at.x);
       for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], v[k], 1e-12) << named.text;
     }
-    // The charts of bounded domains have constant Jacobians, but for the triangle's.
+    // The charts of bounded domains have constant Jacobians, except for the triangle.
     if (std::isfinite(named.measure)) {
       EXPECT_NEAR(measure, named.measure, 0.1 * named.measure) << named.text;
     }

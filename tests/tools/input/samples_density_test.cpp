@@ -1,4 +1,4 @@
-// carlo validate --samples-file --pdf: densities as expressions, right and wrong, on every kind of domain.
+// carlo validate --samples-file --pdf: right and wrong densities as expressions, on every kind of domain.
 
 #include "tools/input/samples_scratch.h"
 

@@ -32,7 +32,7 @@ double cosine_mean(int, int j) {
 }
 
 TEST_F(SamplesFile, DensityVaryingWithinCells_Passes) {
-  // 16 columns for 40000 samples of a slope: bins finer than a cell would reject it.
+  // 16 columns for 40000 samples of a linear density: bins finer than a cell would reject it.
   const Output out = run(options(samples(ramp), grid(16, 1, ramp_mean)));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 cases passed"), HasSubstr("35556 samples each")));
@@ -42,8 +42,7 @@ TEST_F(SamplesFile, EverySeed_ShufflesRowsAndPasses) {
   ValidateCommandOptions o = options(samples(ramp), grid(16, 4, ramp_mean));
   int passed = 0;
   for (o.seed = 1; o.seed <= 20; ++o.seed) passed += run(o).code == carlo::exit_ok;
-  // The samples are the same, so that the seeds are not independent; at alpha = 0.01 two failures in twenty would be
-  // bad luck.
+  // All seeds use the same samples, so they are not independent; at alpha = 0.01 two failures in twenty are unlikely.
   EXPECT_GE(passed, 19);
 }
 
@@ -56,7 +55,7 @@ TEST_F(SamplesFile, WrongDensity_IsRejectedWithPlace) {
 }
 
 TEST_F(SamplesFile, SwappedNeighbourCells_AreRejected) {
-  const auto checked = [](mc::Pcg& random) { // 200 columns, of which every other one is empty
+  const auto checked = [](mc::Pcg& random) { // 200 columns; every other one is empty
     const double cell = std::floor(100 * random.uniform<double>());
     return fmt::format("{:.7f}", (2 * cell + random.uniform<double>()) / 200);
   };
@@ -69,8 +68,8 @@ TEST_F(SamplesFile, SwappedNeighbourCells_AreRejected) {
 }
 
 TEST_F(SamplesFile, ThreePercentSlopeError_IsRejected) {
-  // Density 2 x against 0.03 + 1.97 x: means off by 1.5 % at most where the samples are, 48 % in the first of 16
-  // columns.
+  // Density 2 x against 0.03 + 1.97 x: the cell means differ by at most 1.5 % where most samples are, and by 48 % in
+  // the first of 16 columns.
   EXPECT_EQ(run(options(samples(ramp), grid(16, 1, [](int i, int) { return 0.03 + 0.97 * ramp_mean(i, 0); }))).code,
             carlo::exit_failed);
 }
@@ -103,7 +102,7 @@ TEST_F(SamplesFile, SampleRoundedOverEdge_IsAccepted) {
   EXPECT_EQ(run(options(samples(draw), grid(2, 1, [](int i, int) { return 2.0 * i; }))).code, carlo::exit_ok);
 }
 
-// Of a density that is infinite at 1 a double holds the last 6e-4 as 1 itself: that says nothing against the sampler.
+// The density is infinite at 1, and a double rounds the last 6e-4 of the mass to 1. This is no fault of the sampler.
 TEST_F(SamplesFile, SampleAtInfiniteDensityEdge_IsMeasureZero) {
   ValidateCommandOptions o;
   o.samples_file = samples([](mc::Pcg& r) { return fmt::format("{:.17g}", 1 - std::pow(r.uniform<double>(), 5)); });
@@ -128,16 +127,16 @@ TEST_F(SamplesFile, IntervalWithBounds_Passes) {
 TEST_F(SamplesFile, LatitudeLongitudeGrid_Passes) {
   const std::string file = samples(cosine);
   EXPECT_EQ(run(options(file, grid(8, 32, cosine_mean))).code, carlo::exit_ok);
-  // Against the uniform hemisphere, of mass 1 too.
+  // The uniform hemisphere, which also has mass 1.
   EXPECT_EQ(run(options(file, grid(8, 32, [](int, int j) { return j < 16 ? 1 / (2 * pi) : 0; }))).code,
             carlo::exit_failed);
-  const auto turned = [](mc::Pcg& random) { // by a right angle about x
+  const auto turned = [](mc::Pcg& random) { // rotated by a right angle about x
     double x, y, z;
     std::sscanf(cosine(random).c_str(), "%lf %lf %lf", &x, &y, &z);
     return fmt::format("{} {} {}", x, z, -y);
   };
   EXPECT_EQ(run(options(samples(turned), grid(8, 32, cosine_mean))).code, carlo::exit_failed);
-  const auto lower = [](mc::Pcg& random) { // of the upper hemisphere, and too low
+  const auto lower = [](mc::Pcg& random) { // in the upper hemisphere, but too low
     const double z = std::cbrt(random.uniform<double>()), phi = 2 * pi * random.uniform<double>();
     return fmt::format("{} {} {}", std::sqrt(1 - z * z) * std::cos(phi), std::sqrt(1 - z * z) * std::sin(phi), z);
   };
@@ -244,7 +243,7 @@ TEST_F(SamplesFile, SamplesOutsideGrid_AreOneLineErrors) {
               HasSubstr("is not covered by the grid"));
 }
 
-// As spreadsheets and their users write it: quoted, with a comma at the end, with comments; all one table.
+// Formats of spreadsheets and their users: quoted, with a trailing comma, with comments; all are the same table.
 TEST_F(SamplesFile, SpreadsheetFormats_AreRead) {
   const std::string file = samples(ramp), pdf = grid(16, 1, ramp_mean);
   std::string quoted = "\"x\",\"y\",\r\n";
@@ -280,7 +279,7 @@ TEST_F(SamplesFile, Result_IsIndependentOfPath) {
   EXPECT_EQ(figures(a), figures(path("elsewhere/t.csv")));
 }
 
-// Right samples as programs print them: rounded to the edge, with zeros left out at the end, to few digits.
+// Correct samples in common print formats: rounded to the edge, without trailing zeros, with few digits.
 TEST_F(SamplesFile, AnyNumberFormat_CorrectSamplesPass) {
   for (const std::string format : {"{:.2f}", "{:.3f}", "{:.4f}", "{:.3g}", "{:.4g}", "{:g}", "{:.17g}"}) {
     const auto uniform = [&](mc::Pcg& random) { return fmt::format(fmt::runtime(format), random.uniform<double>()); };

@@ -1,5 +1,5 @@
 #pragma once
-// Files of samples drawn by tests, and how they are handed over.
+// Sample files drawn by tests, and options that read them.
 
 #include <tools/run_in_process.h>
 
@@ -14,14 +14,14 @@
 struct SamplesFile : support::ScratchTest {
   static constexpr int n = 40'000;
 
-  // n rows of what draw returns, printed as most programs do.
+  // Writes n rows of the text that draw() returns, in a common print format.
   template <class Draw> std::string samples(Draw draw, const std::string& name = "s.csv", int rows = n) const {
     mc::Pcg random(7);
     std::string text = "# drawn by a test\n";
     for (int i = 0; i < rows; ++i) text += draw(random) + "\n";
     return write(name, text);
   }
-  // The grid's rows of cell means.
+  // Writes a grid with rows of cell means.
   template <class Mean> std::string grid(int width, int height, Mean mean) const {
     std::string text;
     for (int j = 0; j < height; ++j)
@@ -36,7 +36,7 @@ struct SamplesFile : support::ScratchTest {
   }
 };
 
-// x of density 2 x, y uniform.
+// x with density 2 x, y uniform.
 inline std::string ramp(mc::Pcg& random) {
   const double x = std::sqrt(random.uniform<double>());
   return fmt::format("{:.6f},{:.6f}", x, random.uniform<double>());

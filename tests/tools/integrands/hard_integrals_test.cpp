@@ -8,8 +8,8 @@
 
 namespace {
 
-// The closed forms: each is met within 5 standard errors of 23 degrees of freedom, alpha = 5e-5 each; and
-// where it cannot be exact, is near enough to tell.
+// Each estimate agrees with its closed form within 5 standard errors of 23 degrees of freedom, alpha = 5e-5 each. If an
+// exact result is impossible, the error is also small enough to detect a wrong value.
 TEST(HardIntegrals, StatedValuesAreCorrect) {
   EXPECT_EQ(carlo::hard_integrals().size(), 10u);
   for (const carlo::UnitCubeIntegral& e : carlo::hard_integrals()) {

@@ -16,7 +16,7 @@ const carlo::IntegrandClass& integrand(std::string_view name) {
                        [&](const carlo::IntegrandClass& c) { return c.name == name; });
 }
 
-// The closed forms: plain points agree with each within 6 standard errors, alpha = 2e-9 for each of 200.
+// Plain Monte Carlo agrees with each closed form within 6 standard errors, alpha = 2e-9 for each of 200.
 TEST(RandomIntegrands, StatedValuesAreCorrect) {
   for (const carlo::IntegrandClass& kind : carlo::integrand_classes()) {
     if (!kind.finite_variance) continue;
@@ -34,10 +34,10 @@ TEST(RandomIntegrands, StatedValuesAreCorrect) {
   }
 }
 
-// Long thin Gaussians that follow no axis and that few uniform points meet, if any: the density that is learned may
-// follow a part of one. Of 200 runs of vegas and tree 140 had an error bar when it was told by the values that were met
-// alone, 25 of these off by more than half, and 30 intervals missed. Of 90 bars of 95 % more than 9 miss by chance in
-// 1.5 %; the seeds are fixed.
+// Long thin Gaussians that are parallel to no axis. Few or no uniform points hit them, and the learned density may
+// cover only a part. Without an estimate of the missed part, 140 of 200 runs of vegas and tree had an error bar. The
+// value of 25 runs was off by more than half, and 30 intervals missed. More than 9 of 90 bars of 95 % miss by chance in
+// 1.5 % of the cases; the seeds are fixed.
 TEST(RandomIntegrands, PartlySampledNeedlesHaveNoErrorBar) {
   for (const mc::Method method : {mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
     int known = 0, off = 0, missed = 0;
@@ -60,15 +60,15 @@ TEST(RandomIntegrands, PartlySampledNeedlesHaveNoErrorBar) {
   }
 }
 
-// The promise of the error bar, on integrands whose kind, place and size are random: 93 to 97 % of the 95 % intervals
-// hold the truth. 1100 runs have a binomial deviation of .0066; the bounds are 3 of them beyond, alpha = .3 % for each
-// of 6 bounds; the seeds are fixed.
+// The contract of the error bar, on integrands with random kind, place and size: 93 to 97 % of the 95 % intervals
+// contain the truth. 1100 runs have a binomial deviation of .0066. The bounds are 3 deviations beyond, alpha = .3 % for
+// each of 6 bounds; the seeds are fixed.
 TEST(RandomIntegrands, IntervalsHaveNominalCoverage) {
   for (const double rel_error : {0.0, 3e-3})
     for (const mc::Method method : {mc::Method::rqmc, mc::Method::plain}) {
       int runs = 0, covered = 0, silent = 0, finite = 0;
       for (const carlo::IntegrandClass& kind : carlo::integrand_classes())
-        for (std::uint64_t i = 0; i < 110 && kind.name != "needle"; ++i) { // which these calls do not meet
+        for (std::uint64_t i = 0; i < 110 && kind.name != "needle"; ++i) { // these calls are too few to sample a needle
           const carlo::UnitCubeIntegral e = kind.draw(mc::hash(i, 1));
           mc::IntegrateOptions o;
           o.method = method;
@@ -88,9 +88,10 @@ TEST(RandomIntegrands, IntervalsHaveNominalCoverage) {
       const double share = double(covered) / runs;
       EXPECT_GE(share, 0.93 - 0.02) << name(method) << " " << rel_error;
       EXPECT_LE(share, 0.97 + 0.02) << name(method) << " " << rel_error;
-      // No bar although there could be one: .4 % of 1000 at this number of calls, and 3 binomial deviations.
+      // Runs without an error bar although one exists: .4 % of 1000 at this number of calls, plus 3 binomial
+      // deviations.
       EXPECT_LE(silent, 10) << name(method);
-      // A bar although there is none: 2 % of 110 at this number of calls, and 3 binomial deviations.
+      // Runs with an error bar although none exists: 2 % of 110 at this number of calls, plus 3 binomial deviations.
       EXPECT_LE(finite, 6) << name(method);
     }
 }

@@ -1,4 +1,4 @@
-// The closed forms of the integrands behind the table of rates.
+// The closed forms of the integrands for the table of rates.
 
 #include <integrands/rate_integrals.h>
 #include <sampling/sampling_methods.h>
@@ -11,7 +11,7 @@
 
 namespace {
 
-// 24 estimates of 4096 scrambled points: beyond six standard errors by chance once in 1e5 tests, of which these are 25.
+// 24 estimates with 4096 scrambled points: each of the 25 tests exceeds six standard errors with probability 1e-5.
 TEST(RateIntegrals, StatedValuesAreCorrect) {
   EXPECT_EQ(carlo::rate_integrals().size(), 25u);
   for (const carlo::UnitCubeIntegral& e : carlo::rate_integrals()) {

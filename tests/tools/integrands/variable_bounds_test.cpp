@@ -8,7 +8,7 @@
 
 namespace {
 
-// dx/du is the derivative, x rises from lo to hi.
+// The slope equals the derivative dx/du, and x increases from lo to hi.
 TEST(VariableBounds, MapIsMonotoneAndHasItsDerivative) {
   for (const char* box : {"x=-2:3", "x=1:inf", "x=-inf:-1", "x=-inf:inf"}) {
     const carlo::VariableBounds side = carlo::parse_bounds(box)[0];

@@ -29,7 +29,7 @@ struct Command : support::ScratchTest {
     o.samples = 20'000;
     return o;
   }
-  // The script with a piece of it replaced.
+  // The script with one replacement.
   ValidateCommandOptions changed(const std::string& from, const std::string& to) const {
     std::string text = mc::read_file(script);
     const std::size_t at = text.find(from);
@@ -44,7 +44,7 @@ TEST_F(Command, CorrectProgram_Passes) {
   EXPECT_THAT(out.text, HasSubstr("1 of 1 cases passed"));
 }
 
-// The same program under another path draws the same numbers.
+// The same program at another path returns the same numbers.
 TEST_F(Command, Result_IsIndependentOfPath) {
   const auto figures = [](const std::string& file) {
     const std::string text = run(options("python3 '" + file + "'")).text;
@@ -66,17 +66,17 @@ TEST_F(Command, WrongPrograms_AreRejected) {
 }
 
 TEST_F(Command, EveryApplicableLaw_IsTested) {
-  // The point of the u before: only a law that compares neighbouring questions sees it.
+  // A constant point: only a law that compares different u detects it.
   const Output stuck = run(changed("    r, phi = math.sqrt(u[0]), 2 * math.pi * u[1]\n", "    r, phi = 0.5, 0.25\n"));
   EXPECT_THAT(stuck.text, HasSubstr("law: sample depends on u"));
-  // A logarithm of 0, accepted where u lies in (0,1).
+  // A logarithm of 0, which is accepted if u lies in (0,1).
   ValidateCommandOptions o = changed("math.sqrt(u[0])", "math.exp(0.5 * math.log(u[0]))");
   EXPECT_THAT(refusal(o), HasSubstr("ended with code 1"));
   o.open_interval = true;
   EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
-// A program whose answers to many are right together, but not the ones of these u.
+// A program that returns the right set of answers to a batch in the wrong order.
 TEST_F(Command, BatchAnswers_EqualSingleAnswers) {
   const Output out = run(changed("    sink.write(results.tobytes())", "    sink.write(results[::-1].tobytes())"));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
@@ -86,7 +86,7 @@ TEST_F(Command, BatchAnswers_EqualSingleAnswers) {
 TEST_F(Command, OutcomesAndProductDomains_Pass) {
   ValidateCommandOptions o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(4 * u[0])),)\n");
   o.domain = "discrete=4";
-  EXPECT_EQ(run(o).code, carlo::exit_failed); // 1 / pi each
+  EXPECT_EQ(run(o).code, carlo::exit_failed); // the stated probability is 1 / pi each
   o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(math.pi * u[0])),)\n");
   o.domain = "discrete=3";
   EXPECT_EQ(run(o).code, carlo::exit_failed);
@@ -95,7 +95,7 @@ TEST_F(Command, OutcomesAndProductDomains_Pass) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
-// Ends, hangs and half answers are one line of ours behind what the program itself says.
+// An exit, a hang or a partial answer is reported in one line of carlo, after the output of the program itself.
 TEST_F(Command, MisbehavingProgram_IsOneLineError) {
   EXPECT_THAT(refusal(options("exit 3")),
               HasSubstr("exit 3: the program ended with code 3 instead of answering 'sample'"));
@@ -104,13 +104,13 @@ TEST_F(Command, MisbehavingProgram_IsOneLineError) {
   ValidateCommandOptions o = options("sleep 1000");
   o.timeout = 2;
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("--timeout")));
-  o = options("read line; printf 1234567812345678; sleep 1000", "hemisphere"); // two columns for three
+  o = options("read line; printf 1234567812345678; sleep 1000", "hemisphere"); // two columns instead of three
   o.timeout = 1;
   EXPECT_THAT(refusal(o), testing::ContainsRegex(
                               "at u = .*, where 2 of [0-9]+ numbers have come .doubles of 8 bytes.: no answer in 1 s"));
 }
 
-// What a program prints besides, before its answers or between them, would shift all numbers behind it.
+// Extra output of a program, before or between its answers, would shift all numbers after it.
 TEST_F(Command, ExtraOutput_IsRejected) {
   const char* more = "bytes more than the answer; it must write nothing else to standard output";
   EXPECT_THAT(refusal(changed("for line in", "print('ready', flush=True)\nfor line in")), HasSubstr(more));
@@ -118,7 +118,7 @@ TEST_F(Command, ExtraOutput_IsRejected) {
               HasSubstr(more));
 }
 
-// The program ends when what it started has said its id, by a pipe.
+// The program ends after its child has sent its process id through a pipe.
 TEST_F(Command, ChildProcesses_AreEnded) {
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   const std::string id = "\"" + path("id") + "\"", pipe = "\"" + path("pipe") + "\"";

@@ -1,4 +1,5 @@
-// carlo validate --plugin: right samplers pass, wrong ones are rejected, and a plugin that misbehaves is one line.
+// carlo validate --plugin: right samplers pass, wrong ones are rejected, and a misbehaving plugin is reported in one
+// line.
 
 #include <tools/run_in_process.h>
 
@@ -132,7 +133,7 @@ TEST(Plugin, Crash_IsOneLineWithPlace) {
   EXPECT_THAT(refusal(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
 }
 
-// A report that was made is neither lost nor left out of the files because another case crashed.
+// A crash of one case does not lose the reports of other cases, neither on the terminal nor in the files.
 TEST(Plugin, Crash_FailsOnlyItsCase) {
   ValidateCommandOptions o = plugin("samplers", {"Box", "Cosine"});
   o.parameters = {"crash=1"};
@@ -144,7 +145,7 @@ TEST(Plugin, Crash_FailsOnlyItsCase) {
   EXPECT_THAT(mc::read_file(o.junit), AllOf(HasSubstr("errors=\"1\""), HasSubstr("<error message=\"Cosine")));
 }
 
-// What another sampler would refuse is not asked of it.
+// A set that is out of range of another sampler is not tried there.
 TEST(Plugin, Parameters_ApplyToNamedCasesOnly) {
   ValidateCommandOptions o = plugin("samplers", {"Cosine"});
   o.parameters = {"power=-1000"};
@@ -174,7 +175,7 @@ TEST(Plugin, ExceededLimit_IsOneLineNamingLimit) {
   EXPECT_THAT(refusal(o), HasSubstr("--memory 0 must lie in"));
 }
 
-// Even a process that left its group and lost its parent has ended when carlo says its verdict.
+// A process that left its group and lost its parent has also ended when carlo prints its verdict.
 TEST(Plugin, ChildProcesses_AreEnded) {
   const std::string file = testing::TempDir() + "/family";
   setenv("FAMILY_FILE", file.c_str(), 1);

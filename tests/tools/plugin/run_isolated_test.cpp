@@ -1,4 +1,4 @@
-// Limits of memory: of one process, and of all that a program starts.
+// Memory limits: for one process, and for all processes that a program starts.
 
 #include <tools/run_in_process.h>
 
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 const std::string sampler_program = MC_SOURCE_DIR "/tests/tools/commands/sampler.py";
 
 struct Isolated : support::ScratchTest {
-  // A program that runs these lines of Python, then the sampler. It may take half a GiB.
+  // A program that runs these lines of Python before the sampler, with a limit of half a GiB.
   ValidateCommandOptions after(const std::string& lines) const {
     ValidateCommandOptions o;
     o.sampler_command =
@@ -30,7 +30,7 @@ struct Isolated : support::ScratchTest {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-// Each is within the limit, all of them are not.
+// Each process is within the limit, their total is not.
 TEST_F(Isolated, MemoryLimit_CoversAllProcesses) {
   EXPECT_THAT(refusal(after("for i in range(3):\n"
                             "    if os.fork() == 0:\n"
@@ -48,7 +48,7 @@ TEST_F(Isolated, SharedMemory_CountsOnce) {
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
 }
 
-// Whichever comes first: that it was seen, or that its own allocation failed.
+// Whichever happens first: the check of the limit, or a failed allocation.
 TEST_F(Isolated, OutOfMemoryExit_NamesMemoryLimit) {
   EXPECT_THAT(refusal(after("held = []\n"
                             "while True: held.append(b'x' * (1 << 20))\n")),

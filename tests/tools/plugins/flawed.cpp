@@ -1,4 +1,4 @@
-// A plugin in C++ with one flaw, chosen by a macro; without any it is right.
+// A plugin in C++ with one flaw, which a macro selects; without a macro it is correct.
 #include <mc/check/plugin.h>
 
 #include <signal.h>
@@ -17,15 +17,15 @@ std::int32_t sample(const void*, const double* u, double* x) {
 #if defined(FLAW_throws)
   if (u[0] > 0.5) throw std::runtime_error("no square root today");
 #elif defined(FLAW_greedy)
-  static char* volatile taken; // an allocation that nobody sees may be left out
+  static char* volatile taken; // the compiler may remove an unused allocation
   for (;;) taken = new char[1 << 28];
 #elif defined(FLAW_files)
   while (dup(2) >= 0) {
   }
   throw std::runtime_error("no descriptor is left");
 #elif defined(FLAW_family)
-  // A grandchild in a session of its own that would outlive everyone; its id goes where the test looks, and we go on
-  // when it is there.
+  // A grandchild in its own session that would outlive the other processes. Its id is written to the file that the test
+  // reads, and the parent continues after that.
   static bool born = false;
   int written[2];
   if (!born && pipe(written) == 0) {
@@ -106,7 +106,7 @@ extern "C" const mc_plugin_info* mc_plugin() {
   return &info;
 }
 #elif defined(FLAW_first_version)
-// As a plugin that was compiled before the structs grew: what follows in memory is no part of them.
+// A plugin compiled before the structs grew: the bytes after the old fields do not belong to the struct.
 extern "C" const mc_plugin_info* mc_plugin() {
   static mc_plugin_info info = {1, offsetof(mc_sampler, parts), 1, samplers, 77, 77, nullptr};
   return &info;

@@ -1,4 +1,4 @@
-/* Integrands of a plugin: right ones, and what can be wrong with them. */
+/* Integrands of a plugin: correct ones, and one for each fault. */
 #include <mc/check/plugin.h>
 
 #include <math.h>
@@ -8,7 +8,7 @@ static void sums(int64_t count, const double* x, double* values) {
   int64_t i;
   for (i = 0; i < count; ++i) values[i] = x[2 * i] + x[2 * i + 1];
 }
-static void sums_of_pairs(int64_t count, const double* x, double* values) { /* but not of the last, where it is odd */
+static void sums_of_pairs(int64_t count, const double* x, double* values) { /* omits the last point of an odd count */
   int64_t i;
   for (i = 0; i + 1 < count; i += 2) sums(2, x + 2 * i, values + i);
 }

@@ -1,4 +1,4 @@
-/* Right samplers, and what can be wrong with them, turned on by a parameter. */
+/* Correct samplers; a parameter turns on each fault. */
 #include <mc/check/plugin.h>
 
 #include <math.h>
@@ -76,7 +76,7 @@ static double weight(const void* self, const double* u, const double* x) {
   return is(self, weight_low) ? 0.499 : 0.5;
 }
 
-/* Samples, in doubles that hold floats, of the density 1 / (x + 1)^2 on the half line. */
+/* Samples with density 1 / (x + 1)^2 on the half line, computed in float and stored in doubles. */
 static int32_t sample_tail(const void* self, const double* u, double* x) {
   const float v = (float)u[0];
   (void)self;
@@ -88,7 +88,7 @@ static double pdf_tail(const void* self, const double* x) {
   return x[0] >= 0 ? 1 / ((1 + x[0]) * (1 + x[0])) : 0;
 }
 
-/* The logistic distribution, far from 0 and narrow, and its mirrored half. */
+/* A narrow logistic distribution far from 0, and its mirrored half. */
 static int32_t sample_logistic(const void* self, const double* u, double* x) {
   (void)self;
   x[0] = 1e6 + 1e-3 * log((u[0] + 0x1p-60) / (1 - u[0]));
@@ -120,7 +120,7 @@ static double pdf_rejection(const void* self, const double* x) {
   return 0.25;
 }
 
-/* A box of three dimensions with a state made of its parameter. */
+/* A three-dimensional box; create() builds its state from the parameter. */
 static void destroy(void* self) {
   if (*(double*)self == 14) abort();
   free(self);
@@ -141,7 +141,7 @@ static double pdf_box(const void* self, const double* x) {
   return (n + 1) * pow(0.5 * (x[0] + 1), n) / 6;
 }
 
-/* Three outcomes of probabilities 0, 3/4 and 1/4; with `forgets`, the first is returned at u = 0. */
+/* Three outcomes with probabilities 0, 3/4 and 1/4. With `forgets`, u = 0 returns the first. */
 static int32_t sample_table(const void* self, const double* u, double* x) {
   x[0] = *(const double*)self != 0 && u[0] == 0 ? 0 : u[0] < 0.75 ? 1 : 2;
   return 1;
@@ -162,8 +162,8 @@ static double pdf_triangle(const void* self, const double* x) {
   return 2;
 }
 
-/* Takes three numbers for two dimensions: one of two halves of the sphere, then a point of it. Its parameter turns the samples, but
-   not the pdf, about x by so many degrees. */
+/* Uses three uniform numbers for two dimensions: the first selects a half of the sphere, the others a point on it. The
+   parameter rotates the samples, but not the pdf, about x [degrees]. */
 static int32_t sample_halves(const void* self, const double* u, double* x) {
   const double z = u[0] < 0.25 ? u[1] : -u[1], r = sqrt(1 - z * z), y = r * sin(2 * pi * u[2]);
   const double angle = *(const double*)self * pi / 180;
@@ -175,8 +175,8 @@ static double pdf_halves(const void* self, const double* x) {
   return (x[2] > 0 ? 0.25 : 0.75) / (2 * pi);
 }
 
-/* Uniform in the ball; in an annulus; a normal point of the plane; a cosine lobe beside an exponential on [0, inf). With
-   `wrong` the density is that of another sampler. */
+/* Four samplers: uniform in the ball, uniform in an annulus, normal in the plane, and a cosine lobe times an exponential
+   on [0, inf). With `wrong` the density belongs to another sampler. */
 static int wrong(const void* self) { return *(const double*)self != 0; }
 static void polar(double r, double u, double* x) {
   x[0] = r * cos(2 * pi * u);
@@ -220,7 +220,7 @@ static double pdf_flight(const void* self, const double* x) {
   return x[2] < 0 ? 0 : wrong(self) ? x[2] / pi * 1.1 * exp(-1.1 * x[3]) : x[2] / pi * exp(-x[3]);
 }
 
-/* A mirror that is hit with probability 0.3 and a second with 0.1, beside a cosine lobe. */
+/* Two mirror directions with probabilities 0.3 and 0.1, and a cosine lobe. */
 static int32_t sample_glossy(const void* self, const double* u, double* x) {
   (void)self;
   if (u[2] < 0.3) return MC_OUTCOME;
@@ -237,7 +237,7 @@ static double probability_glossy(const void* self, int32_t k) {
   return k == 0 ? (wrong(self) ? 0.29 : 0.3) : wrong(self) ? 0.11 : 0.1;
 }
 
-/* Four steps, of 0.4, 1.6, 0.4 and 1.6. */
+/* A density with four steps: 0.4, 1.6, 0.4 and 1.6. */
 static int32_t sample_steps(const void* self, const double* u, double* x) {
   const double half = floor(2 * u[0]), rest = 2 * u[0] - half;
   (void)self;
@@ -254,7 +254,7 @@ static int32_t breaks_of_steps(const void* self, int32_t axis, const double** pl
   return 3;
 }
 
-/* Breaks where u is 0. */
+/* Fails at u = 0, where the sample is infinite. */
 static int32_t sample_open(const void* self, const double* u, double* x) {
   (void)self;
   x[0] = -log(u[0]);

@@ -1,4 +1,4 @@
-// The processes of a family and their memory: a parent that shares what it holds with its fork, or does not.
+// The processes of a family and their memory: a parent that shares its memory with its fork, or does not.
 
 #include <process/tree.h>
 
@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t held = 64 << 20;
 
-// A child with a child of its own, which live as long as the object. Between them they hold `held` bytes, once where
-// the grandchild shares them and twice where it writes them anew.
+// A child and a grandchild that live as long as the object. They hold `held` bytes, once if the grandchild shares them
+// and twice if it writes its own copy.
 class Family {
  public:
   explicit Family(bool shared) {
@@ -80,7 +80,7 @@ TEST(ProcessTree, ProportionalBytesCountSharedMemoryOnce) {
   const std::vector<pid_t> all = carlo::descendants(getpid());
   EXPECT_GE(carlo::resident_bytes(all), 2 * held);
   EXPECT_GE(carlo::proportional_bytes(all), held);
-  // Not twice; what this program holds itself, and shares with both, comes on top.
+  // Not twice; the memory of this program, shared with both, is added.
   EXPECT_LE(carlo::proportional_bytes(all), 1.5 * held + carlo::resident_bytes({getpid()}));
   EXPECT_LE(carlo::proportional_bytes(all), 0.75 * carlo::resident_bytes(all));
 }

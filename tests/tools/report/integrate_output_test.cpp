@@ -1,4 +1,4 @@
-// What carlo integrate says beyond one number.
+// Output of carlo integrate beyond the estimate.
 
 #include <tools/run_carlo.h>
 
@@ -63,7 +63,7 @@ TEST_F(IntegrateOutput, DensityIsSavedAndReused) {
   EXPECT_EQ(learning, 2) << "uniform points and its own try the density";
   EXPECT_LE(second["calls"], first["calls"]);
   const double difference = first["value"].get<double>() - second["value"].get<double>();
-  // Two errors of 23 degrees of freedom: beyond 5 in 5e-5 of the choices of seeds.
+  // Two errors of 23 degrees of freedom: the bound fails for 5e-5 of the choices of seeds.
   EXPECT_LE(std::abs(difference), 5 * std::hypot(first["std_error"].get<double>(), second["std_error"].get<double>()));
   mc::write_file(path("cut"), mc::read_file(file).substr(0, 1000));
   const support::ProcessResult cut = support::run_carlo(peak + "--load-density " + path("cut"));
@@ -83,7 +83,7 @@ TEST_F(IntegrateOutput, HistogramSumsToTheIntegral) {
     for (const nlohmann::json& bin : j["histogram"]) sum += bin["value"].get<double>();
     EXPECT_NEAR(sum, j["value"].get<double>(), 1e-9 * sum) << axis;
   }
-  // e^x over x < 1: a third of the domain to each side, infinite below.
+  // e^x over x < 1: the integral over every bin has a closed form, also over the first bin, which is infinite below.
   const nlohmann::json j = run("integrate 'exp(x)' -d x=-inf:1 --histogram x=4");
   EXPECT_TRUE(j["histogram"][0]["lo"].is_null());
   for (const nlohmann::json& bin : j["histogram"]) {
@@ -93,7 +93,8 @@ TEST_F(IntegrateOutput, HistogramSumsToTheIntegral) {
   }
   EXPECT_THAT(
       support::run_carlo("integrate 'sin(x)' -d x=-1:1 --method rqmc --histogram x=4").output,
-      testing::AllOf(HasSubstr("x in [0.5, 1)"), testing::Not(testing::ContainsRegex("[0-9] % [-#]")))); // shares of 0
+      testing::AllOf(HasSubstr("x in [0.5, 1)"),
+                     testing::Not(testing::ContainsRegex("[0-9] % [-#]")))); // the total is 0, so no shares are printed
   EXPECT_THAT(support::run_carlo(peak + "--histogram z=10").output, HasSubstr("there is no variable 'z'"));
   EXPECT_THAT(support::run_carlo(peak + "--histogram x").output, HasSubstr("must be AXIS=BINS"));
   EXPECT_THAT(support::run_carlo("integrate 'exp(x)' -d x=-inf:1 --histogram value=9").output,

@@ -1,4 +1,4 @@
-// Pictures by gnuplot come whole or not at all, and nothing else in the folder is touched.
+// gnuplot pictures are written completely or not at all, and other files in the folder stay unchanged.
 
 #include <report/plot.h>
 
@@ -26,7 +26,7 @@ struct Plot : support::ScratchTest {
     setenv("PATH", path_.c_str(), 1);
     ScratchTest::TearDown();
   }
-  // A program of that name in its place.
+  // Puts a program named gnuplot first in PATH.
   void put_for_gnuplot(const std::string& script) const {
     std::filesystem::create_directory(folder / "programs");
     std::filesystem::permissions(write("programs/gnuplot", "#!/bin/sh\n" + script), std::filesystem::perms::owner_all);

@@ -1,4 +1,4 @@
-// Reports as JSON and back, and as JUnit.
+// Reports to JSON and back, and to JUnit.
 
 #include <report/report_json.h>
 #include <report/validate_output.h>
@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// A report with every field set, and what is awkward in them.
+// A report with every field set, with values that are hard to encode.
 mc::Report full() {
   mc::Report r;
   r.subject = "<\"A&B\">";
@@ -37,7 +37,7 @@ mc::Report full() {
   return r;
 }
 
-// Text tells all doubles apart, NaN and -0 too.
+// The text distinguishes all doubles, including NaN and -0.
 std::string as_text(const mc::Report& r) { return carlo::to_json(r).dump(-1, ' ', false); }
 
 TEST(ReportJson, CborRoundTripIsExact) {

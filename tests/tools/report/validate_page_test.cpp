@@ -1,4 +1,4 @@
-// The page of carlo validate: what it holds, and what a headless browser makes of it.
+// The page of carlo validate: its content, and the result in a headless browser.
 
 #include <catalogue/catalogue.h>
 #include <cli/validate.h>
@@ -29,7 +29,7 @@ using testing::HasSubstr, testing::Not;
 
 constexpr std::uint64_t samples = 60'000;
 
-// Right and wrong samplers of different kinds and their reports, as a run of validate hands them over.
+// Right and wrong samplers of different kinds and their reports, in the form that validate produces.
 struct Results {
   std::vector<carlo::Case> cases;
   std::vector<mc::Report> reports;
@@ -95,7 +95,7 @@ struct ValidatePage : testing::Test {
   std::string browse(const std::string& hash) const { return support::browse(file, hash); }
 };
 
-// Says which text is missing without printing the whole page.
+// A separate function, so that a failure names the missing text without printing the whole page.
 bool has(const std::string& dom, const std::string& text) { return dom.find(text) != std::string::npos; }
 
 TEST_F(ValidatePage, LoadsNothing) {
@@ -117,7 +117,7 @@ TEST_F(ValidatePage, PackedTreesAreComplete) {
   EXPECT_THAT(all.axes, testing::StartsWith("011")) << "axes alternate";
 }
 
-// In a browser: failures first, search, order and maps. One load each, a second or so.
+// In a browser: failures first, search, order and maps. Each test loads the page once, which takes about a second.
 TEST_F(ValidatePage, FailuresComeFirstAndOpen) {
   const std::string dom = browse("");
   if (dom.empty()) GTEST_SKIP() << support::no_browser;

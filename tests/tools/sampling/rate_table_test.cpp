@@ -1,5 +1,5 @@
-// The committed table of rates, notebooks-data/rates/slopes.csv: it has a row for each integrand and way, says what
-// theory() says, and its misses are explained.
+// The committed table of rates, notebooks-data/rates/slopes.csv. It has a row for each integrand and method, agrees
+// with theory(), and its deviations are explained.
 
 #include <integrands/rate_integrals.h>
 #include <sampling/sampling_methods.h>
@@ -19,7 +19,7 @@ namespace {
 
 const std::string data = MC_SOURCE_DIR "/notebooks-data/";
 
-// Of slopes.csv.
+// Columns of slopes.csv.
 enum Column { experiment, of_class, dimension, sampler, around_n, slope, lo, hi, stated, at_these_n, within, source };
 
 using Fields = std::vector<std::string>;
@@ -29,16 +29,16 @@ std::vector<Fields> rows() {
   std::vector<Fields> all;
   for (const std::string_view line : mc::split(text, '\n')) {
     if (line.empty()) continue;
-    const std::vector<std::string_view> fields = mc::split(line, ','); // no source holds one
+    const std::vector<std::string_view> fields = mc::split(line, ','); // no source contains a comma
     all.emplace_back(fields.begin(), fields.end());
   }
-  all.erase(all.begin()); // the names of the columns
+  all.erase(all.begin()); // the column names
   return all;
 }
 
 double number(const std::string& field) { return std::strtod(field.c_str(), nullptr); }
 
-// The part of the README that is about the table.
+// The section of the README about the table.
 std::string readme() {
   const std::string all = mc::read_file(data + "README.md");
   const std::size_t from = all.find("## rates/");
@@ -70,7 +70,7 @@ TEST(RateTable, StatesTheTheoreticalRates) {
       EXPECT_EQ(row[source], rate->source) << e.name << ' ' << w.name;
       EXPECT_NEAR(number(row[at_these_n]), -rate->local_exponent(number(row[around_n])), 1e-3)
           << e.name << ' ' << w.name;
-      // The ends are rounded: within half a digit of theory either answer may be right.
+      // The printed ends are rounded: within half a digit of theory either answer may be right.
       const double digit = 1e-4, n = number(row[around_n]), from = number(row[lo]), to = number(row[hi]);
       if (rate->is_consistent_with(from - digit, to + digit, n) !=
           rate->is_consistent_with(from + digit, to - digit, n))
@@ -79,7 +79,7 @@ TEST(RateTable, StatesTheTheoreticalRates) {
     }
 }
 
-// The README says how many intervals hold their theory, and names the sampler and the class of those that do not.
+// The README states how many intervals contain the theoretical slope. It names the sampler and the class of all others.
 TEST(RateTable, DeviationsFromTheoryAreExplained) {
   const std::string text = readme();
   const std::vector<Fields> all = rows();

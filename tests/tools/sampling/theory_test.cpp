@@ -1,4 +1,4 @@
-// The rows of the table of rates, where they are known by heart, and where none may be missing.
+// Rows of the table of rates with textbook values, and combinations that must have a row.
 
 #include <integrands/find.h>
 #include <sampling/sampling_methods.h>
@@ -47,13 +47,14 @@ TEST(Theory, RatesOfEachClass) {
   EXPECT_EQ(theoretical_rate("sobol", {Class::corner, 0.15}, 1)->bound, RateBound::exact);
 }
 
-// In one dimension a power of two of Halton's points are a net.
+// In one dimension, a power of two of Halton points is a net.
 TEST(Theory, HaltonIn1DHasTheRateOfSobol) {
   for (const Class c : classes) EXPECT_EQ(exponent("halton", c, 1, 0.15), exponent("sobol", c, 1, 0.15));
 }
 
-// Shifted lattices of N points meet every N-th frequency of each coordinate: 4 pi (1 - 2 u)^2, the cosine squared over
-// the sphere, is 4 pi / 3 and 16 / (pi k^2) cos(2 pi k u) for every k, of which k = N, 2 N, ... are left.
+// The error of a shifted lattice of N points consists of every N-th frequency of each coordinate. The squared cosine
+// over the sphere is 4 pi (1 - 2 u)^2. Its series is 4 pi / 3 plus 16 / (pi k^2) cos(2 pi k u) for every k. The terms k
+// = N, 2 N, ... remain.
 TEST(Theory, LatticeRatesForMatchingFaces) {
   const auto rate = theoretical_rate("lattice", {Class::additive, 0, true}, 2);
   EXPECT_EQ(rate->exponent, 2);
@@ -66,7 +67,7 @@ TEST(Theory, LatticeRatesForMatchingFaces) {
     constexpr int shifts = 4000;
     for (std::uint64_t seed = 0; seed < shifts; ++seed)
       squares += mc::sqr(carlo::sampling_method("lattice").estimate(sphere, n, seed).value - sphere.truth) / shifts;
-    double sum = 0; // of the squares of the coefficients of m N, each half its mean over shifts
+    double sum = 0; // squares of the coefficients of m N, each halved by the mean over shifts
     for (double m = 1; m < 1000; ++m) sum += mc::sqr(16 / mc::pi<double> / mc::sqr(m * static_cast<double>(n))) / 2;
     EXPECT_NEAR(std::sqrt(squares / sum), 1, 0.05) << n;
   }
@@ -110,10 +111,10 @@ TEST(Theory, BoundsAreOneSided) {
 TEST(Theory, UnknownMethodOrClass_HasNoRate) {
   EXPECT_FALSE(theoretical_rate("sobol", {}, 2));
   EXPECT_FALSE(theoretical_rate("points.csv", {Class::smooth}, 2));
-  EXPECT_FALSE(theoretical_rate("random", {Class::corner, 0.5}, 2)); // of infinite variance
+  EXPECT_FALSE(theoretical_rate("random", {Class::corner, 0.5}, 2)); // the variance is infinite
 }
 
-// A rate is positive and no faster than any that is known.
+// A rate is positive and not faster than the fastest in the table.
 TEST(Theory, EveryMethodAndClassHasARate) {
   for (const carlo::SamplingMethod& w : carlo::sampling_methods())
     for (const Class c : classes)

@@ -44,7 +44,7 @@ TEST(ProgressLine, LeavesOutWholeParts) {
             "[     ]   0 %    book3-cornell-glass mis");
 }
 
-// Every word of the line is a word of the widest line: no number is cut.
+// Every word of the line is also a word of the widest line: no number is cut.
 TEST(ProgressLine, CutsNoNumber) {
   const std::string text = "1.3075149 \u00b1 0.00013  error 12.34 %  61.2 % undecided  881 ksamples/s";
   for (std::size_t columns = 30; columns < 120; ++columns) {

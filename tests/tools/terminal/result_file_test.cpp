@@ -1,4 +1,4 @@
-// The file of a result, and standard output in its place.
+// The file of a result, and standard output instead of a file.
 
 #include <terminal/result_file.h>
 
