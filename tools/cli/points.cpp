@@ -97,8 +97,8 @@ std::string points_csv(mc::PointList p) {
   return text;
 }
 
-// Work limits for the star discrepancy. It is exact where that takes some seconds at most; otherwise bounds are computed
-// with less work, and with a tenth of it for the many reference sets.
+// Work limits for the star discrepancy. It is exact where that takes some seconds at most. Otherwise bounds are
+// computed with less work, and with a tenth of it for the many reference sets.
 StarDiscrepancyBudget star_discrepancy_budget(std::uint64_t n, std::size_t dim, bool last) {
   constexpr std::uint64_t thorough = 2'000'000'000, quick = 300'000'000, little = 100'000'000;
   if (mc::exact_star_steps(n, dim) < 0.6 * static_cast<double>(quick)) return {last ? thorough : quick, quick};

@@ -197,17 +197,8 @@ void warn_where_light_is_missed(const render::Scene& scene, const render::Render
         std::string(settings.strategy.name).c_str());
 }
 
-int run_render(const RenderCommandOptions& options) {
-  if (options.help_scene) {
-    std::fputs(render::mitsuba::reference().c_str(), stdout);
-    return exit_ok;
-  }
-  if (options.list_strategies) {
-    fmt::print("{}", strategies_text(terminal_columns(STDOUT_FILENO)));
-    return exit_ok;
-  }
-  mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
-  const std::string output = output_of(options);
+// Throws Error for outputs that cannot be written, or that would overwrite each other.
+void check_outputs(const RenderCommandOptions& options, const std::string& output) {
   check_output(output);
   if (!options.intervals.empty()) {
     check_output(options.intervals);
@@ -216,6 +207,17 @@ int run_render(const RenderCommandOptions& options) {
   }
   mc::require(!options.layers || has_extension(output, ".exr"), "--layers: '{}' cannot store them; write an .exr",
               output);
+}
+
+int run_render(const RenderCommandOptions& options) {
+  if (options.help_scene || options.list_strategies) {
+    fmt::print("{}",
+               options.help_scene ? render::mitsuba::reference() : strategies_text(terminal_columns(STDOUT_FILENO)));
+    return exit_ok;
+  }
+  mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
+  const std::string output = output_of(options);
+  check_outputs(options, output);
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;

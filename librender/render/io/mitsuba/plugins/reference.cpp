@@ -16,7 +16,7 @@ Mitsuba 2 and 3: `to_world`, `int_ior`.
 - **Colours** are `<rgb>` (linear sRGB) or `<srgb>` (by the sRGB curve) with three numbers, one for all, or `#rrggbb`;
   or `<spectrum>` with one number or `wavelength:value` pairs [nm]; or `<float>`, a grey. Pairs of what reflects are
   seen in light of equal energy, which makes white warm, as in Mitsuba 0.6, but in daylight in scenes of version 2 and
-  later, as in Mitsuba 3. Extrapolation the pairs a spectrum falls to 0 within their mean distance, from version 2 on at once;
+  later, as in Mitsuba 3. Beyond the pairs a spectrum falls to 0 within their mean distance, from version 2 on at once;
   lajolla's is held.
 - **Transforms** are `<transform>` with `<translate>`, `<scale>`, `<rotate>` (angle in degrees), `<lookAt>` and
   `<matrix>` (16 numbers, row by row), applied in the order in which they stand.
