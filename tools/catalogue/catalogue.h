@@ -1,7 +1,7 @@
 #pragma once
 /// Every distribution of libmc and librender with the parameters for which it is checked.
 ///
-/// A family adds its distributions in its own file. Each line adds one distribution with its parameters:
+/// A family adds its distributions in its own file. Each line adds one distribution with its parameters, for example.
 ///   void add_spheres(Catalogue& c) {
 ///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; });
 ///   }

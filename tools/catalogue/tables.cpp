@@ -18,7 +18,7 @@ std::vector<double> jagged(std::size_t n) {
 
 constexpr auto square = [](auto x) { return x * x; };
 
-// A sky of width x height pixels with a sun of 3 x 3 pixels that holds half of the light.
+// A sky of width x height pixels with a sun of 3 x 3 pixels that contains half of the light.
 std::vector<double> sky(std::size_t width, std::size_t height) {
   std::vector<double> w(width * height);
   double sum = 0;

@@ -21,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_replicates = 64, most_replicates = 512, reference_replicates = 128;
-constexpr double rounding = 1e-12; // of sums, relative to the mean of |f|
+constexpr double rounding = 1e-12; // rounding error of sums, relative to the mean of |f|
 
 // Numbers in units of 2^exponent, so that their fourth powers neither overflow nor underflow.
 struct ScaledValues {
@@ -34,8 +34,7 @@ struct ScaledValues {
   double mean() const {
     double sum = 0;
     for (const double one : values)
-      sum += one; // exact for integers: N must not fall below the start of the fit by
-                  // rounding
+      sum += one; // exact for integers: N must not fall below the start of the fit by rounding
     return sum / static_cast<double>(values.size());
   }
   double squares() const { // sum of squared deviations from the mean
@@ -285,9 +284,9 @@ std::string wrong_truth_warning(const UnitCubeIntegral& e, const Measurement& m)
                      e.truth, std::abs(value - e.truth), best->method->name, value, error);
 }
 
-// Whether one replicate holds over half of the squared deviations from the mean, and fewer than one in a million sets
-// of normal replicates would. The largest share s of R deviations is distributed as t^2 / (R - 2 + t^2) (R - 1) / R,
-// with t of R - 2 degrees of freedom.
+// Whether one replicate contributes over half of the squared deviations from the mean, and fewer than one in a million
+// sets of normal replicates would. The largest share s of R deviations is distributed as t^2 / (R - 2 + t^2) (R - 1) /
+// R, with t of R - 2 degrees of freedom.
 bool one_dominates(const std::vector<double>& values) {
   const ScaledValues s(values);
   const double mean = s.mean(), sum = s.squares();

@@ -70,8 +70,8 @@ struct Measurement {
 ///            widens every interval. After an interrupt the mean is over the existing replicates. An error that is not
 ///            significantly larger than the error of the truth is reported as a bound and enters no slope.
 ///   doubt  : a stated truth is doubted if the means of the unbiased methods agree with each other but differ from it
-///            by six standard errors. An estimated truth is doubted if one replicate holds over half of the variance in
-///            a quarter of all sets of replicates at the larger N.
+///            by six standard errors. An estimated truth is doubted if one replicate causes over half of the variance
+///            in a quarter of all sets of replicates at the larger N.
 ///   throws : Error for an integrand that is not finite somewhere, for one of unknown truth that is 0 at every point,
 ///            and where refuse_underflow throws.
 Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,

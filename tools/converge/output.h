@@ -32,7 +32,7 @@ std::string to_csv(const IntegralTarget& target, const Measurement& m);
 std::string slopes_header();
 std::string slopes_csv(const IntegralTarget& target, const Measurement& m);
 
-/// The complete measurement. `about` holds additional metadata: command, commit, seed.
+/// The complete measurement. `about` contains additional metadata: command, commit, seed.
 nlohmann::ordered_json to_json(const IntegralTarget& target, const Measurement& m, const nlohmann::ordered_json& about);
 
 /// The gnuplot script for NAME.csv: error against N, and against CPU seconds.

@@ -105,7 +105,7 @@ std::string ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate
   return "<span class=\"ties\">" + s + "</span>";
 }
 
-/// Rows of the requested goals. The gain over plain Monte Carlo is a column if it is known for at least one goal.
+/// Rows of the requested goals. The gain over plain Monte Carlo is a column if it exists for at least one goal.
 class ChoiceTable {
  public:
   ChoiceTable(const PageEntry& one, bool has_gain) : m_(*one.measurement), n_(words_of(one).n), has_gain_(has_gain) {}

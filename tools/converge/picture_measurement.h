@@ -57,8 +57,8 @@ struct PictureOptions {
 /// strategy does not sample.
 struct Bias {
   IntervalEstimate bias; ///< root of the relmse of the expected picture. The 95 % interval holds simultaneously for all
-                         ///< methods. It treats the
-                         ///< spread between pixels as random, so a bias is significant only if many pixels show it.
+                         ///< methods. It treats the spread between pixels as random, so a bias is significant only if
+                         ///< many pixels show it.
   double noise = 0;      ///< root of the relmse of one picture's noise
   double n = 0;          ///< largest number of samples per pixel
   /// Error above which a method with a significant bias costs less than the best method without one. Infinite if the
@@ -84,8 +84,8 @@ struct PictureMeasurement {
 
 /// Runs every method with 4, 8, ... max_spp samples per pixel (adaptive ones from 32). The methods take turns, so that
 /// other load on the machine affects all of them. The 95 % intervals of the errors use Student's t over the pictures.
-/// An error that is not significantly larger than the reference's is a bound. After an interrupt the result holds the
-/// finished levels and the methods with at least one.
+/// An error that is not significantly larger than the reference's is a bound. After an interrupt the result contains
+/// the finished levels and the methods with at least one.
 ///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias.
 ///   reference : mis+lt, sobol and the scene's longest path; at each level its samples grow until its error is a tenth
 ///               of the smallest noise.

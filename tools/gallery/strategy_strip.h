@@ -21,7 +21,7 @@ render::Image strategy_strip(const render::Scene& scene, render::RenderOptions s
 /// A line for each strategy. It has the error with equal samples and in equal time, and the cost of a given error
 /// relative to the cheapest strategy that samples all light. It has the mean of the picture with its standard error,
 /// relative to the most precise mean.
-///   throws : Error if the two lists hold different strategies.
+///   throws : Error if the two lists contain different strategies.
 std::string strategy_table(const std::vector<StrategyResult>& same_samples,
                            const std::vector<StrategyResult>& same_time);
 

@@ -34,7 +34,7 @@ struct UnitCubeIntegral {
   double truth; ///< NaN if unknown
   Smoothness smoothness;
   double min_fit_n;                     ///< smallest N in the asymptotic range; 0 if unknown
-  std::function<double(UnitPoint u)> f; ///< of u in [0,1)^dim; its mean is the integral
+  std::function<double(UnitPoint u)> f; ///< the integrand at u in [0,1)^dim; its mean is the integral
   /// Evaluates several points, stored one after another; may be empty.
   std::function<void(UnitPoint points, std::span<double> values)> f_batch = {};
   std::function<std::string(UnitPoint u)> describe_point =

@@ -1,8 +1,9 @@
 #pragma once
 /// Wrong samplers, densities, weights and estimators, each paired with a correct version.
 ///
-/// They are reimplemented here for two users. `carlo slips` shows which checks reject the code that the books print.
-/// The tests require that every one of them is rejected. A family adds its bugs in its own file, known_bugs/FAMILY.cpp.
+/// They are reimplemented here for two users. `carlo known-bugs` shows which checks reject the code that the books
+/// print. The tests require that every one of them is rejected. A family adds its bugs in its own file,
+/// known_bugs/FAMILY.cpp.
 
 #include <catalogue/catalogue.h>
 

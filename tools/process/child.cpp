@@ -29,8 +29,7 @@ struct Pipe {
   Pipe() {
     int ends[2];
     mc::require(pipe2(ends, O_CLOEXEC) == 0, "no pipe: {}",
-                std::strerror(errno)); // close-on-exec, so that no other child
-                                       // inherits the pipe
+                std::strerror(errno)); // close-on-exec, so that no other child inherits the pipe
     read = ends[0];
     write = ends[1];
   }

@@ -1,4 +1,4 @@
-// carlo slips: verdicts on every bug and its correction, the Cornell boxes, JSON and bad input.
+// carlo known-bugs: verdicts on every bug and its correction, the Cornell boxes, JSON and bad input.
 
 #include <known_bugs/cornell.h>
 #include <known_bugs/known_bugs.h>

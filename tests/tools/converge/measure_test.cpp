@@ -234,7 +234,7 @@ TEST(Measure, InfiniteVariance_IsReported) {
   EXPECT_EQ(named(1), 0);
 }
 
-// An estimated reference is doubted if a single replicate repeatedly holds over half of the variance. This is true for
+// An estimated reference is doubted if a single replicate repeatedly causes over half of the variance. This is true for
 // 1/x. It is false for smooth functions and for 1/sqrt(x), which has a barely infinite variance.
 TEST(Measure, DivergentIntegral_ReferenceIsWarnedAbout) {
   const auto list = methods({"random", "stratified", "sobol"});
@@ -286,8 +286,8 @@ TEST(Measure, ErrorBelowReferenceError_IsAnUpperBound) {
 }
 
 // x^-.15 with stratified points: the errors come from the cell at 0 and have kurtosis 30. One set of replicates shows
-// little of this tail. Neighbouring bands share their kurtosis: 385 of 420 bands of 95 % hold. With the kurtosis of
-// each set alone 320 hold.
+// little of this tail. Neighbouring bands share their kurtosis: 385 of 420 bands of 95 % cover the error. With the
+// kurtosis of each set alone 320 cover it.
 TEST(Measure, BandsCoverErrorsOfHeavyTails) {
   constexpr double a = 0.15;
   const auto moment = [](double from, double to, double power) {
@@ -314,7 +314,7 @@ TEST(Measure, BandsCoverErrorsOfHeavyTails) {
   EXPECT_GE(hold, 385);
 }
 
-// With few replicates of a smooth integrand, one of eight may hold half of the variance by chance.
+// With few replicates of a smooth integrand, one of eight may cause half of the variance by chance.
 TEST(Measure, FewReplicates_GiveNoWarning) {
   const auto list = methods({"random"});
   UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
