@@ -85,8 +85,8 @@ class Comparison {
   // Tests pixels and blocks of 16x16 pixels. A pixel takes the mean variance of its 3x3 neighbourhood, since a pixel
   // that missed a rare bright path underestimates its own variance. Its degrees of freedom are those of the
   // neighbourhood, but at most the sum of the two pixels' own, and at most 3. One rare bright path can dominate a
-  // pixel, so its noise is far from normal; Student's t with 3 degrees of freedom has heavy tails. Blocks detect differences
-  // that are small in every pixel.
+  // pixel, so its noise is far from normal; Student's t with 3 degrees of freedom has heavy tails. Blocks detect
+  // differences that are small in every pixel.
   void run() {
     for (int c = 0; c < 3; ++c) {
       // A pixel without any rare event has variance 0; a floor keeps differences far below the typical noise from
