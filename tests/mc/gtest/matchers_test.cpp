@@ -77,7 +77,7 @@ TEST(Matchers, ABsdfWithTheCosine_PassesWithItsOptionsAndIsRecognisedWithout) {
   reciprocal.cosine = false;
   EXPECT_THAT(
       mc::obeys_bsdf_laws("grey", grey, wo, reciprocal).message(),
-      testing::AllOf(testing::ContainsRegex("fail: f[(]wi, wo[)] is [0-9.]+, should be [0-9.]+ as f[(]wo, wi[)]"),
+      testing::AllOf(testing::ContainsRegex("fail: f[(]wi, wo[)] is [-0-9.e]+, should be [-0-9.e]+ as f[(]wo, wi[)]"),
                      HasSubstr("f / |cos wi| is reciprocal")));
 }
 
@@ -92,8 +92,7 @@ TEST(Matchers, SamplesMatchPdf) {
   EXPECT_THAT(
       wrong.message(),
       testing::AllOf(testing::StartsWith("sampler: fail, p < 1e-300 (50000 samples, alpha 0.001): region x 0 to "),
-                     HasSubstr(": cell x "), HasSubstr(" expected (z = "), HasSubstr("likely cause: shape"),
-                     HasSubstr(" more checks fail")));
+                     HasSubstr(" expected (z = "), HasSubstr("likely cause: shape"), HasSubstr(" more checks fail")));
 }
 
 TEST(Matchers, Mean) {
