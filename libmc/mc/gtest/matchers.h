@@ -60,7 +60,7 @@ template <class Bsdf, class S>
 testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsdf, const Vec3<S>& wo,
                                          BsdfOptions options = {}) {
   if (options.name == BsdfOptions{}.name)
-    options.name = fmt::format("{}, wo = {}", expression, detail::format_point(wo));
+    options.name = fmt::format("{}, wo = ({:.6g}, {:.6g}, {:.6g})", expression, wo.x(), wo.y(), wo.z());
   if constexpr (detail::is_bsdf<Bsdf, Vec3<S>>)
     return assert_passed(check_bsdf<S>(bsdf, wo, options), detail::full_bsdf_laws);
   else return testing::AssertionFailure();

@@ -41,11 +41,10 @@ TEST(Matchers, BsdfLaws) {
   const mc::Vec3<double> wo(0.6, 0, 0.8);
   const mc::BsdfOptions few{.samples = 20'000};
   EXPECT_BSDF_LAWS((Grey{0.5, 0.5}), wo, few);
-  EXPECT_THAT(
-      mc::obeys_bsdf_laws("grey", Grey{0.5, 0.6}, wo, few).message(),
-      testing::AllOf(testing::StartsWith("grey, wo = (0.59999999999999998, 0, 0.80000000000000004): fail: f is 0.19"),
-                     HasSubstr(", should be 0.159"), HasSubstr(", at u = ("), HasSubstr("likely cause: weight"),
-                     HasSubstr("law: weight = f / pdf")));
+  EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{0.5, 0.6}, wo, few).message(),
+              testing::AllOf(testing::StartsWith("grey, wo = (0.6, 0, 0.8): fail: f is 0.19"),
+                             HasSubstr(", should be 0.159"), HasSubstr(", at u = ("), HasSubstr("likely cause: weight"),
+                             HasSubstr("law: weight = f / pdf")));
   EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{1.1, 1.1}, wo, few).message(), HasSubstr("energy <= 1"));
 }
 
