@@ -18,9 +18,9 @@ const char* remedy(mc::ErrorBar bar) {
   switch (bar) {
   case mc::ErrorBar::known: return "";
   case mc::ErrorBar::undersampled:
-  case mc::ErrorBar::all_zero: return "; raise --max-calls, or choose a --domain around it";
+  case mc::ErrorBar::all_zero: return "; raise --max-calls, or narrow --domain to the part that matters";
   case mc::ErrorBar::infinite_variance:
-    return ". Substitute a variable that removes the singularity; where there is none, take more calls";
+    return ". Substitute a variable that removes the singularity; if there is none, raise --max-calls";
   }
   return "";
 }
@@ -92,13 +92,13 @@ std::string integrate_summary(const IntegrateResults& found) {
 }
 
 std::string round_table(const mc::Integral& r) {
-  std::string text = fmt::format("{:<17} {:>8}  {:<25}  {}\n", "round", "calls", "estimate", "chi2 to the answer");
+  std::string text = fmt::format("{:<17} {:>8}  {:<25}  {}\n", "round", "calls", "estimate", "chi2 against result");
   for (const mc::IntegrateRound& round : r.rounds)
     text += fmt::format("{:<17} {:>8}  {}  {}\n",
                         fmt::format("{}{}", name(round.method), round.learning ? ", learning" : ""),
                         format_count(double(round.calls)), value_with_error(round.estimate, round.error_bar),
                         std::isfinite(round.chi2) ? fmt::format("{:.2f}", round.chi2) : "-");
-  return text + fmt::format("sum of chi2: {:.2f} of {:.0f}\n", r.chi2, r.chi2_dof);
+  return text + fmt::format("sum of chi2: {:.2f}, {:.0f} degrees of freedom\n", r.chi2, r.chi2_dof);
 }
 
 std::string histogram_table(const IntegrateResults& found) {

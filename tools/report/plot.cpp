@@ -23,8 +23,7 @@ class TemporaryFolder {
     std::error_code error;
     std::string name = (fs::temp_directory_path(error) / "carlo.XXXXXX").string();
     if (!error && !mkdtemp(name.data())) error = {errno, std::generic_category()};
-    mc::require(!error, "cannot make a temporary folder: {}; let TMPDIR name a folder that can hold one",
-                error.message());
+    mc::require(!error, "cannot make a temporary folder: {}; set TMPDIR to a writable folder", error.message());
     path_ = name;
   }
   ~TemporaryFolder() {
@@ -81,8 +80,8 @@ bool draw_plot(const fs::path& folder, const std::string& name, const std::vecto
                 last_line(mc::read_file(log)), script);
     const std::string bytes = fs::exists(own.file(picture)) ? mc::read_file(own.file(picture)) : std::string();
     mc::require(is_whole(bytes, kind),
-                "gnuplot drew only a part of '{}' in '{}'; is the disk full? TMPDIR names another", picture,
-                own.file(""));
+                "gnuplot drew only a part of '{}' in '{}'; is the disk full? Set TMPDIR to a folder on another",
+                picture, own.file(""));
     mc::write_file(place, bytes);
   }
   return true;

@@ -26,7 +26,7 @@ template <class E> E from_word(const std::string& word) {
   for (int i = 0;; ++i) {
     const auto known = name(static_cast<E>(i));
     if (known == word) return static_cast<E>(i);
-    require(!known.empty(), "'{}' is no word of a report", word);
+    require(!known.empty(), "'{}' is not a verdict, fault or axis scale of a report", word);
   }
 }
 

@@ -64,7 +64,8 @@ TEST(ReportJson, OmitsMissingEvidence) {
 TEST(ReportJson, DamagedJson_Throws) {
   nlohmann::json j = carlo::to_json(full());
   j["checks"][0]["fault"] = "nonsense";
-  EXPECT_THAT(support::error_of([&] { carlo::report_from_json(j); }), HasSubstr("'nonsense' is no word"));
+  EXPECT_THAT(support::error_of([&] { carlo::report_from_json(j); }),
+              HasSubstr("'nonsense' is not a verdict, fault or axis scale"));
   j = carlo::to_json(full());
   j.erase("checks");
   EXPECT_THAT(support::error_of([&] { carlo::report_from_json(j); }), HasSubstr("the report is damaged"));
