@@ -1,3 +1,4 @@
+#include <converge/curve_style.h>
 #include <converge/output.h>
 #include <converge/page.h>
 #include <converge/trade.h>
@@ -63,7 +64,7 @@ void print_ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate 
                 std::string_view unit) {
   const std::size_t count = count_ties(candidates, criterion);
   for (std::size_t i = 1; i < count; ++i)
-    fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", curve_label(*candidates[i].curve),
+    fmt::print("{}{} {}", i == 1 ? "      no significant difference: " : ", ", curve_label(*candidates[i].curve),
                text_of(reported_interval(candidates[i], criterion), unit));
   if (count > 1) fmt::print("\n");
 }
@@ -71,12 +72,12 @@ void print_ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate 
 // The smallest errors, where no method reaches the wanted one.
 void print_nearest(const CandidatesForError& f) {
   constexpr std::size_t most = 4;
-  fmt::print("  error {:g}: no way came there", f.goal);
+  fmt::print("  error {:g}: not reached", f.goal);
   for (std::size_t i = 0; i < std::min(f.nearest.size(), most); ++i)
-    fmt::print("{} {} {}{:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", curve_label(*f.nearest[i].curve),
+    fmt::print("{} {} {}{:.3g} at N = {:.0f}", i == 0 ? "; smallest errors:" : ",", curve_label(*f.nearest[i].curve),
                f.nearest[i].error.is_upper_bound() ? "at most " : "", f.nearest[i].error.value, f.nearest[i].n);
-  if (f.nearest.size() > most) fmt::print("; all {} are in trade.csv", f.nearest.size());
-  fmt::print("; raise --max-n, of a scene --max-spp\n");
+  if (f.nearest.size() > most) fmt::print("; trade.csv has all {}", f.nearest.size());
+  fmt::print("; raise --max-n (for a scene --max-spp)\n");
 }
 
 void print(const CandidatesForError& f, const CostUnit& cost) {
@@ -91,7 +92,7 @@ void print(const CandidatesForError& f, const CostUnit& cost) {
 
 void print(const CandidatesForTime& f, const CostUnit& cost) {
   if (f.candidates.empty()) {
-    fmt::print("  {:g}{}: no way can begin with so little\n", f.goal, cost.unit);
+    fmt::print("  {:g}{}: too little for any method\n", f.goal, cost.unit);
     return;
   }
   const TradeCandidate& best = f.candidates.front();
@@ -104,10 +105,10 @@ void print(const CandidatesForTime& f, const CostUnit& cost) {
   const auto ended =
       std::count_if(f.candidates.begin(), f.candidates.end(), [](const TradeCandidate& o) { return o.is_largest_n; });
   if (ended > 0)
-    fmt::print(
-        "      {} of {} ways ended before {:g}{}, at their largest N, and may err less; raise --max-n, of a scene "
-        "--max-spp\n",
-        ended, f.candidates.size(), f.goal, cost.unit);
+    fmt::print("      {} of {} methods reached their largest N before {:g}{}; their error may be smaller: raise "
+               "--max-n (for a "
+               "scene --max-spp)\n",
+               ended, f.candidates.size(), f.goal, cost.unit);
 }
 
 // JSON has no infinity; null stands for it, and for a value of which only a bound is known.
@@ -134,19 +135,26 @@ ordered_json to_json(const For& f, IntervalEstimate TradeCandidate::*criterion, 
   return j;
 }
 
-// gnuplot script: all points, and the Pareto front.
-std::string script(const std::string& title, const Measurement& m) {
+// gnuplot script: all points, and the Pareto front. Winners have broad lines.
+std::string script(const std::string& title, const Measurement& m, const TradeResults& trade_results) {
   std::string s = plot_header("trade", 900, 640);
-  s += fmt::format("set title \"{}\" noenhanced\nset logscale xy\nset format xy \"10^{{%L}}\"\nset key outside right "
-                   "Left reverse samplen 1\nset xlabel \"{} of one estimate\"\nset ylabel \"root-mean-square "
-                   "error\"\nplot \"front.csv\" skip 1 using 3:4 with lines lw 6 lc rgb \"#dddddd\" title \"best\"",
-                   title, m.cost.axis);
-  for (std::size_t i = 0; i < m.curves.size(); ++i) {
-    std::string name = curve_label(m.curves[i]);
+  s += fmt::format(
+      "set title \"{}\" noenhanced\nset logscale xy\nset format xy \"10^{{%L}}\"\nset key outside right "
+      "Left reverse samplen 2\nset xlabel \"{} of one estimate\"\nset ylabel \"root-mean-square "
+      "error\"\nplot \"front.csv\" skip 1 using 3:4 with lines lw 8 lc rgb \"#e2e2e2\" title \"Pareto front\"",
+      title, m.cost.axis);
+  const std::vector<CurveStyle> styles = curve_styles(m, &trade_results);
+  bool has_grey = false;
+  for (const std::size_t i : drawing_order(styles)) {
+    const std::string name = curve_label(m.curves[i]);
+    const CurveStyle& style = styles[i];
+    std::string key = fmt::format("title \"{}{}\" noenhanced", name, style.wins() ? " (winner)" : "");
+    if (!style.color) key = has_grey ? "notitle" : "title \"other methods\"";
+    has_grey = has_grey || !style.color;
     s +=
         fmt::format(", \\\n     \"trade.csv\" skip 1 using (strcol(1) eq \"{}\" ? $3 : NaN):4 with linespoints pt 7 ps "
-                    "0.4 lc rgb \"{}\" title \"{}\" noenhanced",
-                    name, color(i), name);
+                    "0.4 lw {} lc rgb \"{}\" {}",
+                    name, style.wins() ? 3.5 : 1.5, color_on_white(style), key);
   }
   return s + "\n";
 }
@@ -275,14 +283,14 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
       std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
   for (const CandidatesForError& f : a.by_error) print(f, m.cost);
   for (const CandidatesForTime& f : a.by_time) print(f, m.cost);
-  if (exact) fmt::print("  every way is exact to rounding: there is no error to plot\n");
+  if (exact) fmt::print("  every method is exact to rounding: there is no error to plot\n");
   for (const std::string& warning : {m.truth_warning, variance_warning(m)})
     if (!warning.empty()) fmt::print("  warning: {}\n", warning);
   const std::filesystem::path& folder = folders.data;
   mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
   mc::write_file((folder / "front.csv").string(), csv(a.pareto_front, m.cost));
   mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
-  mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m));
+  mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m, a));
   if (!anything) remove_plot(folder, "trade");
   else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
@@ -313,7 +321,7 @@ int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
   if (m.interrupted) fmt::print("{}\n", interruption_summary(pictures));
   if (pictures.methods.empty()) return exit_interrupted;
   if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
-  fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
+  fmt::print("{}: {} methods, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
   fmt::print("{}", bias_summary(pictures));
   // The pictures were already rendered in turn.
   const TradeResults trade_results =
@@ -350,7 +358,7 @@ int run_trade(const TradeCommandOptions& o) {
   Measurement m = measure_convergence(target, chosen, options);
   progress.clear();
   if (m.curves.empty()) {
-    fmt::print("interrupted: 0 of {} ways were measured, too few to choose from\n", chosen.size());
+    fmt::print("interrupted: 0 of {} methods were measured, too few to choose from\n", chosen.size());
     return exit_interrupted;
   }
   if (errors.empty() && seconds.empty())
@@ -362,8 +370,8 @@ int run_trade(const TradeCommandOptions& o) {
   };
   const TradeResults trade_results = trade_results_of(m, wanted, in_turn);
   m.interrupted = *interrupt.flag();
-  if (m.interrupted) fmt::print("{}\n", interrupted_text(count_finished(m), chosen.size(), "ways", m));
-  fmt::print("{}: {} way{}, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
+  if (m.interrupted) fmt::print("{}\n", interrupted_text(count_finished(m), chosen.size(), "methods", m));
+  fmt::print("{}: {} method{}, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
              m.curves.size() == 1 ? "" : "s", m.cost.axis);
   const auto out_of_time =
       std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });

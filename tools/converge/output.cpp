@@ -1,3 +1,4 @@
+#include <converge/curve_style.h>
 #include <converge/output.h>
 #include <report/plot.h>
 
@@ -5,18 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace carlo {
 
 using nlohmann::ordered_json;
-
-std::string color(std::size_t i) {
-  static constexpr std::array colors = {"#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb",
-                                        "#332288", "#ddaa33", "#44aa99", "#882255", "#117733", "#cc6677", "#88ccee"};
-  return colors[i % colors.size()];
-}
 
 std::string slope_text(const ConvergenceCurve& c) {
   if (c.exact) return "exact to rounding";
@@ -175,27 +169,41 @@ std::string gnuplot_text(const std::string& text) {
   return safe;
 }
 
+// What the key says of a curve; nothing for a grey one.
+std::string key_of(const ConvergenceCurve& c, const CurveStyle& style, bool with_slopes) {
+  if (!style.color) return "notitle";
+  std::string text = with_slopes && c.power_law
+                         ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.method->name, c.power_law->slope,
+                                       (c.power_law->hi - c.power_law->lo) / 2)
+                         : c.method->name;
+  std::replace(text.begin(), text.end(), '_', ' '); // which gnuplot would take for a subscript
+  return fmt::format("title \"{}\"", gnuplot_text(text));
+}
+
 std::string curve_lines(const Measurement& m, const std::string& name, const char* column, bool with_slopes) {
+  const std::vector<CurveStyle> styles = curve_styles(m, nullptr);
+  const std::vector<std::size_t> order = drawing_order(styles);
   std::string plot = "plot ";
-  for (std::size_t i = 0; i < m.curves.size(); ++i) {
+  for (const std::size_t i : order) {
     const ConvergenceCurve& c = m.curves[i];
     if (!c.has_measurable_error()) continue;
     const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ${} : NaN)", gnuplot_text(c.method->name), column);
-    std::string label = with_slopes && c.power_law
-                            ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.method->name, c.power_law->slope,
-                                          (c.power_law->hi - c.power_law->lo) / 2)
-                            : c.method->name;
-    std::replace(label.begin(), label.end(), '_', ' '); // gnuplot would read an underscore as a subscript
-    plot += fmt::format("\"{0}.csv\" skip 1 using {1}:5:6 with filledcurves fs solid 0.18 noborder lc rgb \"{2}\" "
-                        "notitle, \\\n     \"{0}.csv\" skip 1 using {1}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "
-                        "\"{2}\" title \"{3}\", \\\n     ",
-                        name, pick, color(i), gnuplot_text(label));
-    if (with_slopes && c.theory && !c.errors.back().is_bound)
+    const std::string color = color_on_white(styles[i]);
+    if (styles[i].color)
+      plot += fmt::format("\"{}.csv\" skip 1 using {}:5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "
+                          "\"{}\" notitle, \\\n     ",
+                          name, pick, color);
+    plot += fmt::format("\"{}.csv\" skip 1 using {}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb \"{}\" {}, \\\n     ",
+                        name, pick, color, key_of(c, styles[i], with_slopes));
+    if (with_slopes && c.theory && styles[i].color && !c.errors.back().is_bound)
       plot += fmt::format("{0:.6g} * x**({1:.6g}) with lines dt 3 lw 1 lc rgb \"{2}\" notitle, \\\n     ",
                           c.errors.back().rms * std::pow(c.errors.back().n, c.theory->exponent), -c.theory->exponent,
-                          color(i));
+                          color);
   }
-  return plot + "NaN notitle\n";
+  const bool has_grey = !order.empty() && !styles[order.front()].color;
+  return plot + (has_grey ? fmt::format("NaN with lines lw 1.5 lc rgb \"{}\" title \"other methods\"\n",
+                                        color_on_white(styles[order.front()]))
+                          : "NaN notitle\n");
 }
 
 } // namespace

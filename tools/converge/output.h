@@ -38,7 +38,4 @@ nlohmann::ordered_json to_json(const IntegralTarget& target, const Measurement& 
 /// The gnuplot script for NAME.csv: error against N, and against CPU seconds.
 std::string to_script(const IntegralTarget& target, const Measurement& m, const std::string& name);
 
-/// The colour of the i-th curve, distinguishable by colour-blind readers.
-std::string color(std::size_t i);
-
 } // namespace carlo

@@ -1,5 +1,5 @@
 #pragma once
-/// Measured curves of integrals and scenes as one HTML page without network access or scripts.
+/// The page of carlo converge and carlo trade. It needs no network and no script.
 
 #include <converge/picture_measurement.h>
 
@@ -13,11 +13,11 @@ namespace carlo {
 struct PageEntry {
   const IntegralTarget* target;
   const Measurement* measurement;
-  const PictureMeasurement* pictures = nullptr; ///< set for a scene
-  const TradeResults* trade_results = nullptr;  ///< set for carlo trade
+  const PictureMeasurement* pictures = nullptr; ///< of a scene, with its measurement
+  const TradeResults* trade_results = nullptr;  ///< of carlo trade
 };
 
-/// The name, title and command line at the top of the page.
+/// Title of a page, and the command that wrote it.
 struct PageHeader {
   std::string_view tool, title;
   std::string command;
@@ -25,13 +25,13 @@ struct PageHeader {
 PageHeader converge_header(const std::string& command);
 PageHeader trade_header(const std::string& command);
 
-/// Writes FOLDER/index.html. For each target the page shows the requested goals with the recommended methods. It plots
-/// the error against N and against cost, with 95 % bands and dotted lines for the theory. A table lists every curve.
-/// For a scene it adds the reference and one picture for each method, as PNG files in the same folder.
+/// Writes FOLDER/index.html. A section for each target contains the answer in sentences and a table (carlo trade);
+/// the error against N and against its cost, with 95 % bands and the slopes of theory; a table of all curves; for a
+/// scene the reference and a picture of each method, as PNG files beside the page.
 void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head,
                             const std::vector<PageEntry>& all);
 
-/// A file name made of `text`: the first 60 characters, with all but letters, digits, _ and - replaced by _.
+/// A file name made of `text`: at most 60 characters, all but letters, digits, _ and - replaced by _.
 std::string safe_file_name(const std::string& text);
 
 } // namespace carlo

@@ -1,4 +1,3 @@
-#include <converge/output.h>
 #include <converge/panel.h>
 #include <report/html.h>
 
@@ -11,7 +10,7 @@ namespace carlo {
 
 namespace {
 
-constexpr double width = 560, height = 380, left = 58, right = 12, top = 12, bottom = 44;
+constexpr double width = 480, height = 340, left = 52, right = 12, top = 26, bottom = 42;
 
 // A logarithmic axis.
 struct Axis {
@@ -51,7 +50,8 @@ std::string number(double x) {
 
 class Panel {
  public:
-  Panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options) : curves_(curves), options_(options) {
+  Panel(const std::vector<ConvergenceCurve>& curves, const std::vector<CurveStyle>& styles, const PanelOptions& options)
+      : curves_(curves), styles_(styles), options_(options) {
     for (const ConvergenceCurve& c : curves)
       for (const mc::RmsError* e : drawn(c)) {
         x_.hold(options.x(*e));
@@ -59,6 +59,9 @@ class Panel {
       }
     x_.extend();
     y_.extend();
+    const bool has_names =
+        std::any_of(styles.begin(), styles.end(), [](const CurveStyle& style) { return style.wins(); });
+    if (has_names) y_.lo -= 0.08 * (y_.hi - y_.lo); // names of winners stand below their curves
   }
 
   std::string svg() const {
@@ -67,9 +70,11 @@ class Panel {
                                 height, escape_html(options_.axis));
     s += grid() + fmt::format("<text class=\"label\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>", (left + width - right) / 2,
                               height - 8, escape_html(options_.axis));
-    s += best();
-    for (std::size_t i = 0; i < curves_.size(); ++i) s += curve(curves_[i], color(i));
-    return s + "</svg>";
+    s += "<text class=\"tick\" x=\"4\" y=\"14\">RMS error</text>" + best();
+    std::vector<std::size_t> order = drawing_order(styles_);
+    std::stable_partition(order.begin(), order.end(), [this](std::size_t i) { return !styles_[i].wins(); });
+    for (const std::size_t i : order) s += curve(curves_[i], styles_[i]);
+    return s + names_of_winners() + "</svg>";
   }
 
  private:
@@ -112,35 +117,65 @@ class Panel {
     if (points.empty()) return {};
     return fmt::format("<polyline class=\"best\" points=\"{}\"/>", points);
   }
-  std::string curve(const ConvergenceCurve& c, const std::string& color) const {
+  std::string curve(const ConvergenceCurve& c, const CurveStyle& style) const {
     const std::vector<const mc::RmsError*> errors = drawn(c);
     if (errors.empty()) return {};
+    const std::string color = page_color(style);
     std::string middle, band;
     for (const mc::RmsError* e : errors) {
       middle += point(options_.x(*e), e->rms);
       band += point(options_.x(*e), e->hi);
     }
     for (auto e = errors.rbegin(); e != errors.rend(); ++e) band += point(options_.x(**e), (*e)->lo);
-    std::string s = fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>", band, color,
-                                curves_.size() > 6 ? .08 : .16);
-    s += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>", middle, color);
-    if (!options_.theory || !c.theory) return s;
+    std::string s;
+    if (style.color) s += fmt::format("<polygon points=\"{}\" style=\"fill:{}\" fill-opacity=\".14\"/>", band, color);
+    s += fmt::format("<polyline points=\"{}\" fill=\"none\" style=\"stroke:{}\" stroke-width=\"{}\"/>", middle, color,
+                     style.wins()  ? 3.2
+                     : style.color ? 1.8
+                                   : 1.1);
+    if (!options_.theory || !c.theory || !style.color) return s;
     const double first_x = options_.x(*errors.front()), last_x = options_.x(*errors.back()),
                  last_y = errors.back()->rms;
     const double first_y = last_y * std::pow(first_x / last_x, -c.theory->exponent);
     return s + line(px(first_x), py(first_y), px(last_x), py(last_y),
-                    fmt::format("stroke=\"{}\" stroke-dasharray=\"1 4\" stroke-width=\"1.4\"", color));
+                    fmt::format("style=\"stroke:{}\" stroke-dasharray=\"1 4\" stroke-width=\"1.4\"", color));
+  }
+  // Below the last points, one above the other.
+  std::string names_of_winners() const {
+    struct Name {
+      double x, y;
+      std::string text;
+    };
+    std::vector<Name> names;
+    for (std::size_t i = 0; i < curves_.size(); ++i) {
+      const std::vector<const mc::RmsError*> errors = drawn(curves_[i]);
+      if (!styles_[i].wins() || errors.empty()) continue;
+      names.push_back(
+          {px(options_.x(*errors.back())) + 4, py(errors.back()->rms) + 18, escape_html(curve_label(curves_[i]))});
+    }
+    std::sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.y > b.y; });
+    std::string s;
+    double lowest = height - bottom - 4;
+    for (const Name& name : names) {
+      const double y = std::min(name.y, lowest);
+      lowest = y - 16;
+      s += fmt::format("<text class=\"winner\" text-anchor=\"end\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", name.x, y,
+                       name.text);
+    }
+    return s;
   }
 
   const std::vector<ConvergenceCurve>& curves_;
+  const std::vector<CurveStyle>& styles_;
   const PanelOptions& options_;
   Axis x_, y_;
 };
 
 } // namespace
 
-std::string error_panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options) {
-  return Panel(curves, options).svg();
+std::string error_panel(const std::vector<ConvergenceCurve>& curves, const std::vector<CurveStyle>& styles,
+                        const PanelOptions& options) {
+  return Panel(curves, styles, options).svg();
 }
 
 } // namespace carlo

@@ -1,7 +1,7 @@
 #pragma once
 /// Measured curves drawn as SVG.
 
-#include <converge/trade.h>
+#include <converge/curve_style.h>
 
 #include <string>
 #include <string_view>
@@ -9,15 +9,18 @@
 
 namespace carlo {
 
-/// Axes and additional lines of a panel.
+/// The horizontal axis of a panel.
 struct PanelOptions {
-  std::string_view axis; ///< label of the x axis
+  std::string_view axis; ///< its label
   double (*x)(const mc::RmsError& e);
-  bool theory = false;                        ///< draws dotted lines with the theoretical slope
-  std::vector<TradeCandidate> pareto_front{}; ///< draws a broad line through these points; x must then return seconds
+  bool theory = false;                        ///< dotted lines with the slopes of theory
+  std::vector<TradeCandidate> pareto_front{}; ///< a broad line through these, where x is the cost
 };
 
-/// An SVG element with the RMS errors and their 95 % bands on logarithmic axes. Empty if no error exceeds 0.
-std::string error_panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options);
+/// An SVG element: the RMS errors with their 95 % bands, both axes logarithmic; empty where no error is above 0. Grey
+/// curves have no band. Winners are drawn last, broader, and with their names.
+///   styles : of the curves, in their order
+std::string error_panel(const std::vector<ConvergenceCurve>& curves, const std::vector<CurveStyle>& styles,
+                        const PanelOptions& options);
 
 } // namespace carlo

@@ -17,6 +17,26 @@ std::string escape_html(std::string_view text) {
   return safe;
 }
 
+void HtmlTable::add(const std::vector<std::string>& cells) {
+  rows_ += "<tr>";
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    rows_ += fmt::format("<td data-label=\"{}\"{}>{}</td>", escape_html(columns_[i]),
+                         cells[i] == "-" ? " class=\"dash\"" : "", cells[i]);
+  rows_ += "</tr>";
+}
+
+void HtmlTable::add_note(const std::string& first, const std::string& note) {
+  rows_ += fmt::format("<tr><td data-label=\"{}\">{}</td><td class=\"none\" colspan=\"{}\">{}</td></tr>",
+                       escape_html(columns_.front()), first, columns_.size() - 1, note);
+}
+
+std::string HtmlTable::html(Width width) const {
+  std::string s =
+      fmt::format("<div class=\"scroll\"><table class=\"data{}\"><thead><tr>", width == Width::wide ? " cards" : "");
+  for (const std::string& column : columns_) s += fmt::format("<th>{}</th>", escape_html(column));
+  return s + "</tr></thead><tbody>" + rows_ + "</tbody></table></div>";
+}
+
 std::string to_html(const HtmlPage& page) {
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "

@@ -59,7 +59,7 @@ TEST_F(Converge, Scene_IsComparedWithAReference) {
   EXPECT_THAT(out("slopes.csv"), HasSubstr(",independent samples\n"));
   const std::string page = mc::read_file(path("page/index.html"));
   EXPECT_THAT(page, AllOf(HasSubstr("8&times;8 pixels; reference of "), HasSubstr("src=\"cbox-reference.png\""),
-                          HasSubstr("The CPU seconds are those of one picture.")));
+                          HasSubstr("The cost is CPU seconds of one picture.")));
   EXPECT_TRUE(std::filesystem::exists(path("page/cbox-3.png")));
   const std::string dark = write("dark.xml", R"(<scene version="0.5.0"><sensor type="perspective">
     <float name="fov" value="40"/></sensor>

@@ -31,31 +31,33 @@ struct TradeCommand : support::ScratchTest {
   }
 };
 
-TEST_F(TradeCommand, PrintsTheCheapestMethodForEachError) {
+TEST_F(TradeCommand, NamesTheCheapestMethodForEachError) {
   const ProcessResult r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("23 ways"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
+  EXPECT_THAT(r.output, AllOf(HasSubstr("23 methods"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
                               HasSubstr("times faster than plain Monte Carlo")));
   const std::string json = mc::read_file(path("out/trade.json"));
   EXPECT_THAT(json, AllOf(HasSubstr("\"way\": \"sobol_float\""), HasSubstr("\"gain_over_plain\""),
                           HasSubstr("\"front\": "), HasSubstr("\"seed\": 1")));
   EXPECT_THAT(mc::read_file(path("out/front.csv")), HasSubstr("way,n,cpu_seconds,rms_error"));
-  EXPECT_THAT(mc::read_file(path("page/index.html")),
-              AllOf(HasSubstr("<th>plain Monte Carlo costs</th>"), HasSubstr("The CPU seconds are those of one est")));
+  EXPECT_THAT(mc::read_file(path("page/index.html")), AllOf(HasSubstr("<th>cost of plain Monte Carlo</th>"),
+                                                            HasSubstr("The cost is CPU seconds of one estimate"),
+                                                            HasSubstr("The cheapest method for an RMS error of 0.1")));
 }
 
-TEST_F(TradeCommand, UnreachedError_ListsTheNearestMethods) {
+TEST_F(TradeCommand, UnreachedError_NamesTheSmallestErrors) {
   const ProcessResult r = run("rate_jump_2d --error 1e-9 --max-n 1024");
   EXPECT_EQ(r.exit_code, 1) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024"),
-                              HasSubstr("; all 20 are in trade.csv; raise --max-n")));
+  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: not reached; smallest errors: "), HasSubstr(" at N = 1024"),
+                              HasSubstr("; trade.csv has all 20; raise --max-n")));
 }
 
 TEST_F(TradeCommand, TimeBeyondTheLargestN_IsReported) {
   const ProcessResult r = run("pi --seconds 1,10 --max-n 256");
   EXPECT_EQ(r.exit_code, 0) << r.output;
-  EXPECT_THAT(r.output, AllOf(ContainsRegex("[0-9]+ of [0-9]+ ways ended before 1 s, at their largest N, and may err "),
-                              HasSubstr(" ways ended before 10 s, "), HasSubstr("; raise --max-n, of a scene --max")));
+  EXPECT_THAT(r.output,
+              AllOf(ContainsRegex("[0-9]+ of [0-9]+ methods reached their largest N before 1 s; their error "),
+                    HasSubstr(" before 10 s; "), HasSubstr("may be smaller: raise --max-n (for a scene --max")));
   EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"ended\": true"));
 }
 
@@ -69,7 +71,7 @@ TEST_F(TradeCommand, CurvesEndedByTime_AreCounted) {
 TEST_F(TradeCommand, CtrlC_PrintsResultSoFar) {
   const ProcessResult r = support::interrupt_carlo("trade pi --max-n 2e8 --threads 1 -o '" + path("out") + "'");
   EXPECT_EQ(r.exit_code, 130) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("interrupted: 0 of 23 ways were finished, one more up to N = "),
+  EXPECT_THAT(r.output, AllOf(HasSubstr("interrupted: 0 of 23 methods were finished, one more up to N = "),
                               HasSubstr("  error 0.0314159: "), HasSubstr("data and plots: ")));
   EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"interrupted\": true"));
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("random,16,"));
@@ -79,7 +81,7 @@ TEST_F(TradeCommand, CtrlC_PrintsResultSoFar) {
 TEST_F(TradeCommand, ExactIntegral_IsNotPlotted) {
   const ProcessResult r = run("'3+0*x' -d x=0:1 --max-n 64 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 0.03: "), HasSubstr("every way is exact to rounding")));
+  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 0.03: "), HasSubstr("every method is exact to rounding")));
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("sobol,64,"));
 }
 
@@ -102,9 +104,9 @@ TEST_F(TradeCommand, Scene_ListsMethodsAndBiases) {
   const ProcessResult r =
       run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 1) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 11 ways, millions of rays"), HasSubstr("  light sobol: bias "),
+  EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 11 methods, millions of rays"), HasSubstr("  light sobol: bias "),
                               HasSubstr("  error 0.5: "), HasSubstr(" times faster than plain Monte Carlo\n"),
-                              HasSubstr("  error 1e-06: no way came there; nearest: ")));
+                              HasSubstr("  error 1e-06: not reached; smallest errors: ")));
   EXPECT_THAT(mc::read_file(path("out/trade.json")),
               AllOf(HasSubstr("\"way\": \"mis sobol adaptive\""), HasSubstr("\"way\": \"mis sobol splat\""),
                     HasSubstr("\"way\": \"mis sobol adaptive tiles\""), HasSubstr("\"way\": \"bsdf independent\""),
@@ -112,7 +114,7 @@ TEST_F(TradeCommand, Scene_ListsMethodsAndBiases) {
                     HasSubstr("\"reference\""), Not(HasSubstr("cpu_seconds"))));
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("way,n,million_rays,rms_error"));
   EXPECT_THAT(mc::read_file(path("page/index.html")),
-              AllOf(HasSubstr("<th>millions of rays</th>"), HasSubstr("no way came there; nearest "),
+              AllOf(HasSubstr("<th>millions of rays</th>"), HasSubstr("not reached; smallest error: "),
                     HasSubstr("cbox-11.png"), Not(HasSubstr("CPU"))));
   expect_refused(cbox + "miss", "did you mean 'mis'");
   expect_refused(cbox + "mis --max-spp 16", "--max-spp 16 must be at least 32");
@@ -141,7 +143,7 @@ TEST_F(TradeCommand, Scene_ExcludesStrategiesThatMissLights) {
   EXPECT_EQ(r.exit_code, 0) << r.output;
   // nee and mis; even, adaptive, both with tiles. BSDF sampling cannot hit a point light, so there is no plain Monte
   // Carlo.
-  EXPECT_THAT(r.output, AllOf(HasSubstr("hard-shadows: 8 ways"), Not(HasSubstr("plain Monte Carlo"))));
+  EXPECT_THAT(r.output, AllOf(HasSubstr("hard-shadows: 8 methods"), Not(HasSubstr("plain Monte Carlo"))));
   expect_refused(hard + "--strategies mixture", "mixture");
 }
 

@@ -67,19 +67,28 @@ struct ConvergencePage : support::ScratchTest {
   }
 };
 
-TEST_F(ConvergencePage, SceneShowsMethodChoiceAndPictures) {
+TEST_F(ConvergencePage, Scene_HasTheAnswerAndThePictures) {
   const PictureExample e;
   const std::string page = this->page(trade_header("carlo trade 'a <room>.xml' --cost rays"), {e.measured()});
-  EXPECT_THAT(page, AllOf(HasSubstr("<title>carlo trade</title>"), HasSubstr("Which way to take"),
+  EXPECT_THAT(page, AllOf(HasSubstr("<title>carlo trade</title>"), HasSubstr("Which method to choose"),
                           HasSubstr("4&times;3 pixels; reference of 6400 samples per pixel with an error of 0.004")));
+  EXPECT_THAT(page, HasSubstr("<p class=\"answer\">The cheapest method for an RMS error of 0.1 is mis independent. No "
+                              "method reached an RMS error of 1e-06. The most accurate method for 0.04 Mray is mis "
+                              "independent; the error of plain Monte Carlo is 3 times as large. 1e-09 Mray is too "
+                              "little for any method.</p>"));
+  EXPECT_THAT(page,
+              AllOf(HasSubstr("</i>mis independent <span class=\"wins\">cheapest</span> <span class=\"wins\">most "
+                              "accurate</span>"),
+                    HasSubstr("class=\"winner\"")));
   EXPECT_THAT(page, AllOf(HasSubstr("0.04 <small>[0.035, 0.045]</small>"),
                           HasSubstr("<span class=\"ties\">light sobol</span>"),
-                          HasSubstr("colspan=\"5\">no way came there; nearest <i"),
-                          HasSubstr("no way can begin with so little"), HasSubstr("3 <small>[2, 4]</small> &times;")));
-  EXPECT_THAT(page, AllOf(HasSubstr("-0.500 <small>[-0.520, -0.480]</small>"), HasSubstr("<td>yes</td>"),
-                          HasSubstr("0.3 <small>[0.29, 0.31]</small></td><td>0.45 <small>[0.4, never]</small></td>"),
+                          HasSubstr("class=\"none\" colspan=\"4\">not reached; smallest error: <i"),
+                          HasSubstr("too little for any method"), HasSubstr("3 <small>[2, 4]</small> &times;")));
+  EXPECT_THAT(page, AllOf(HasSubstr("-0.500 <small>[-0.520, -0.480]</small>"), HasSubstr("\"agrees\">yes</td>"),
+                          HasSubstr("\"bias [95 %]\">0.3 <small>[0.29, 0.31]</small></td>"),
+                          HasSubstr("\"pays above\">0.45 <small>[0.4, never]</small></td>"),
                           HasSubstr("class=\"best\""), HasSubstr("stroke-dasharray")));
-  EXPECT_THAT(page, AllOf(HasSubstr("The millions of rays are those of one picture."), Not(HasSubstr("CPU"))));
+  EXPECT_THAT(page, AllOf(HasSubstr("The cost is millions of rays of one picture."), Not(HasSubstr("CPU"))));
   for (const char* file : {"a__room_-reference.png", "a__room_-1.png", "a__room_-2.png"}) {
     EXPECT_THAT(page, HasSubstr(std::string("src=\"") + file + "\""));
     EXPECT_TRUE(std::filesystem::exists(path(file))) << file;
@@ -87,7 +96,7 @@ TEST_F(ConvergencePage, SceneShowsMethodChoiceAndPictures) {
   for (const char* loaded : {"http", "<script", "@import", "url("}) EXPECT_THAT(page, Not(HasSubstr(loaded)));
 }
 
-TEST_F(ConvergencePage, IntegralsShowNoPicturesAndNoBias) {
+TEST_F(ConvergencePage, Integral_HasNoPicturesAndNoBias) {
   IntegralTarget target;
   target.integral = {"pi", "Area of the disk", "a book", 2, 3.14159, {}, 0, {}};
   const SamplingMethod method = named("random");
@@ -98,13 +107,13 @@ TEST_F(ConvergencePage, IntegralsShowNoPicturesAndNoBias) {
   m.curves = {c};
   m.truth = 3.14159;
   const std::string page = this->page(converge_header("carlo converge pi"), {{&target, &m}});
-  EXPECT_THAT(page, AllOf(HasSubstr("a book; 2 dimensions; truth 3.14159"), HasSubstr("<th>sampler</th>"),
-                          HasSubstr("The CPU seconds are those of one estimate."), Not(HasSubstr("bias")),
+  EXPECT_THAT(page, AllOf(HasSubstr("a book; 2 dimensions; truth 3.14159"), HasSubstr("<th>point set</th>"),
+                          HasSubstr("The cost is CPU seconds of one estimate."), Not(HasSubstr("bias")),
                           Not(HasSubstr("<figure")), Not(HasSubstr("class=\"best\""))));
   EXPECT_THAT(page, HasSubstr("10<tspan dy=\"-5\" font-size=\"8\">-6</tspan>"));
   m.curves[0].exact = true; // nothing to draw
   EXPECT_THAT(this->page(converge_header("carlo converge pi"), {{&target, &m}}),
-              AllOf(Not(HasSubstr("<svg")), HasSubstr("<td>exact</td>")));
+              AllOf(Not(HasSubstr("<svg")), HasSubstr("\"slope [95 %]\">exact</td>")));
 }
 
 // An axis that spans a decade or two has ticks at 1, 2 and 5.
