@@ -30,6 +30,7 @@ struct GalleryCommandOptions {
   std::optional<double> seconds, target_error; ///< of each scene
   double scale = 1;                            ///< factor of width and height
   std::uint64_t seed = 0;
+  int thumbnail_side = 64; ///< pixels
   int threads = 0;
   std::string command;
 };
@@ -64,6 +65,8 @@ std::vector<Option> rows(GalleryCommandOptions& o) {
        {
            {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
            {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+           {"--thumbnails", "PIXELS", &o.thumbnail_side,
+            "Width of the pictures in sheet.png. From 256 on each has its name below it."},
            {"--table", "", &o.table, "Print which scene requires which feature as Markdown, and stop."},
        }},
   });
@@ -123,7 +126,8 @@ RenderedScene report(const SceneJob& a, const render::RenderResult& result) {
   return r;
 }
 
-constexpr int thumbnail_side = 64, thumbnails_in_a_row = 12;
+constexpr int most_columns = 12, sheet_width = 1280; // of sheet.png
+constexpr int least_named = 256;                     // pixels of a picture with its name
 
 /// Renders one scene after the other.
 class GalleryRun {
@@ -195,7 +199,7 @@ class GalleryRun {
   void keep_thumbnail(const SceneJob& a, render::Image image) {
     const render::ToneMapping tone = tone_of(*a.scene);
     for (render::Spectrum& p : image.pixels) p = tone_map(p, tone).cast<render::Float>();
-    thumbnails_.push_back(thumbnail(image, thumbnail_side));
+    thumbnails_.push_back(thumbnail(image, options_.thumbnail_side));
   }
 
   const GalleryCommandOptions& options_;
@@ -208,6 +212,13 @@ class GalleryRun {
   std::vector<render::Image> thumbnails_;
   std::map<std::string, std::vector<StrategyResult>> strategies_;
 };
+
+render::Image sheet_of(const GalleryRun& run, int side) {
+  SheetLabels labels;
+  if (side >= least_named)
+    for (const RenderedScene& r : run.rendered()) labels.cells.emplace_back(r.scene->name);
+  return contact_sheet(run.thumbnails(), std::clamp(sheet_width / side, 1, most_columns), side, labels);
+}
 
 int run_gallery(const GalleryCommandOptions& o) {
   mc::require(o.names.empty() || !(o.list || o.table), "gallery: --list and --table show all scenes; leave out '{}'",
@@ -222,6 +233,8 @@ int run_gallery(const GalleryCommandOptions& o) {
   mc::require(!o.spp || *o.spp >= 1, "--spp {} must be at least 1", o.spp.value_or(0));
   mc::require(!o.seconds || *o.seconds > 0, "--time {} must be > 0", o.seconds.value_or(0));
   mc::require(!o.target_error || *o.target_error > 0, "--target-error {} must be > 0", o.target_error.value_or(0));
+  mc::require(o.thumbnail_side >= 16 && o.thumbnail_side <= 1024, "--thumbnails {} must lie in [16, 1024]",
+              o.thumbnail_side);
   const std::vector<const GalleryScene*> scenes = chosen_scenes(o);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "index.html");
 
@@ -230,8 +243,7 @@ int run_gallery(const GalleryCommandOptions& o) {
   run.render_all(scenes);
   const std::size_t finished = run.rendered().size();
   if (finished > 0) {
-    render::write_image((folder / "sheet.png").string(),
-                        contact_sheet(run.thumbnails(), thumbnails_in_a_row, thumbnail_side));
+    render::write_image((folder / "sheet.png").string(), sheet_of(run, o.thumbnail_side));
     const std::string page = (folder / "index.html").string();
     mc::write_file(page, gallery_page(run.rendered(), scenes.size(), o.command));
     fmt::print("page: {}\n", page);

@@ -22,18 +22,14 @@ std::string strategies_of(const RenderedScene& r) {
   double least = HUGE_VAL;
   for (const StrategyResult& s : r.strategies)
     if (s.work > 0 && !s.misses_light) least = std::min(least, s.work);
-  std::string text =
-      "<details><summary>Strategies compared</summary><div class=\"scroll\"><table><tr><th>strategy"
-      "<th class=\"n\">work<th class=\"n\">error<th class=\"n\">undecided<th class=\"n\">brightness</tr>";
-  for (const StrategyResult& s : r.strategies) {
-    const std::string work = s.work > 0 ? fmt::format("{:.3g}&times;", s.work / least) : "0";
-    text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-                        "<td class=\"n\">{:.1f} &plusmn; {:.1f} %</td></tr>",
-                        s.name == r.strategy ? fmt::format("<b>{}</b>", s.name) : std::string(s.name), work,
-                        percent(s.relative_error), percent(s.outlier_dominated), 100 * s.mean.value / best->mean.value,
-                        100 * s.mean.std_error / best->mean.value);
-  }
-  return text + "</table></div></details>";
+  HtmlTable table({"strategy", "work", "error", "dominated", "mean [%]"});
+  for (const StrategyResult& s : r.strategies)
+    table.add({s.name == r.strategy ? fmt::format("<b>{}</b>", s.name) : std::string(s.name),
+               s.work > 0 ? fmt::format("{:.3g}&times;", s.work / least) : "0", percent(s.relative_error),
+               percent(s.outlier_dominated),
+               fmt::format("{:.1f}&thinsp;&plusmn;&thinsp;{:.1f}", 100 * s.mean.value / best->mean.value,
+                           100 * s.mean.std_error / best->mean.value)});
+  return "<details><summary>Compare strategies</summary>" + table.html(HtmlTable::Width::narrow) + "</details>";
 }
 
 std::string section(const RenderedScene& r) {
@@ -47,7 +43,7 @@ std::string section(const RenderedScene& r) {
       "<b>{}</b>{}; {}, {}; <a href=\"{}.exr\">EXR</a></p>",
       r.width, r.height, r.spp, format_count(r.samples_per_second), format_seconds(r.seconds),
       percent(r.relative_error),
-      r.outlier_dominated > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.outlier_dominated))
+      r.outlier_dominated > 0 ? fmt::format(", one sample dominates {} of the pixels", percent(r.outlier_dominated))
                               : "",
       r.strategy, r.sampler, scene.name);
   s += "<ul class=\"features\">";
@@ -56,7 +52,7 @@ std::string section(const RenderedScene& r) {
 }
 
 constexpr std::string_view style = R"(
-main { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 22rem), 1fr)); gap: 1.2rem; }
+main { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 23rem), 1fr)); gap: 1.2rem; }
 main { align-items: start; }
 section { background: var(--card); border: 1px solid var(--line); border-radius: 12px; padding: .9rem; min-width: 0; }
 section img { width: 100%; height: auto; display: block; border-radius: 6px; background: #000; margin-bottom: .7rem; }
@@ -68,8 +64,11 @@ section h2 { font-size: 1.05rem; line-height: 1.3; }
 .features { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem; margin: .6rem 0; font-size: .8em; }
 .features li { background: var(--quiet); border-radius: 6px; padding: .05rem .45rem; overflow-wrap: anywhere; }
 details { margin-top: .5rem; }
-details td, details th { padding: .2rem .4rem .2rem 0; }
-details table { font-size: .84em; }
+details .scroll { margin: .5rem -.9rem -.9rem; border-width: 1px 0 0; border-radius: 0 0 12px 12px; }
+.data { font-size: .82em; }
+.data :is(td, th) { padding: .25rem .3rem; white-space: nowrap; }
+.data :is(td, th):first-child { padding-left: .9rem; }
+.data :is(td, th):last-child { padding-right: .9rem; }
 a { color: var(--link); }
 .doubt { color: var(--fail); }
 )";
@@ -84,13 +83,16 @@ std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t
         fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), requested);
   for (const RenderedScene& r : rendered) page.main += section(r) + "\n";
   page.footer =
-      "<b>Mean relative standard error</b>: the root mean square of the pixels' standard errors "
-      "relative to the radiance about them, in the dark to half of the picture's mean; the EXR beside each picture "
-      "has the variance of every pixel. Where one sample carries "
-      "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
-      "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
-      "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
-      "knows it best. <b>light</b> looks towards lamps alone, and misses what other surfaces and the sky send.";
+      "The <b>mean relative standard error</b> is the root mean square of the pixels' standard errors, each relative "
+      "to "
+      "the mean radiance around its pixel (in the dark, to half of the mean of the picture). The EXR file of each "
+      "picture contains the variance of every pixel. A pixel has an <b>outlier</b> where one sample carries over half "
+      "of "
+      "its variance; the error is not reliable there. <b>Compare strategies</b> uses small pictures with equal numbers "
+      "of "
+      "samples; the strategy of the picture is bold. <b>Work</b> is the CPU time for a given error, relative to the "
+      "cheapest strategy that finds all light. The <b>mean</b> is the luminance relative to the strategy with the "
+      "smallest standard error. Strategy <b>light</b> samples directions to lamps only, and misses other light.";
   return to_html(page);
 }
 

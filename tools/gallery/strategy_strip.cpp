@@ -1,4 +1,5 @@
 #include <gallery/contact_sheet.h>
+#include <gallery/label.h>
 #include <gallery/strategy_strip.h>
 
 #include <mc/core/error.h>
@@ -25,12 +26,15 @@ std::string brightness(const StrategyResult& s, const StrategyResult* best) {
 render::Image strategy_strip(const render::Scene& scene, render::RenderOptions settings,
                              const render::ToneMapping& tone) {
   std::vector<render::Image> pictures;
+  SheetLabels labels;
+  for (const int spp : strip_spp) labels.columns.push_back(fmt::format("{} spp", spp));
   settings.seconds.reset();
   settings.target_error.reset();
   settings.adaptive = false;
   settings.progress = nullptr;
   for (const render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
+    labels.rows.emplace_back(strategy.name);
     for (const int spp : strip_spp) {
       settings.spp = spp;
       render::RenderResult r = render::render(scene, settings);
@@ -39,7 +43,8 @@ render::Image strategy_strip(const render::Scene& scene, render::RenderOptions s
       pictures.push_back(std::move(r.image));
     }
   }
-  return contact_sheet(pictures, static_cast<int>(strip_spp.size()), std::max(settings.width, settings.height));
+  return contact_sheet(pictures, static_cast<int>(strip_spp.size()),
+                       std::max({settings.width, settings.height, label_width(labels.columns.back())}), labels);
 }
 
 std::string strategy_table(const std::vector<StrategyResult>& same_samples,

@@ -13,8 +13,9 @@ namespace carlo {
 /// Samples per pixel of the strip's columns.
 inline constexpr std::array<int, 6> strip_spp = {1, 4, 16, 64, 256, 1024};
 
-/// A strip of pictures: one row for each strategy that finds all lights, one column for each value of strip_spp, with
-/// `tone` applied. Empty if settings.cancel is set before the end.
+/// Pictures of the scene by every strategy that samples all of its lights: a labelled row for each strategy, a labelled
+/// column for each number of samples per pixel in strip_spp. Empty when settings.cancel is set before the end.
+///   tone : from radiance to pixels
 render::Image strategy_strip(const render::Scene& scene, render::RenderOptions settings,
                              const render::ToneMapping& tone);
 

@@ -41,7 +41,7 @@ TEST_F(GalleryCommand, RendersNamedScenes) {
     EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
   const std::string page = mc::read_file(path("out/index.html"));
   EXPECT_THAT(page, HasSubstr("book3-cornell-glass-guided.png"));
-  EXPECT_THAT(page, HasSubstr("Strategies compared"));
+  EXPECT_THAT(page, HasSubstr("Compare strategies"));
   EXPECT_THAT(page, Not(HasSubstr("Interrupted")));
 }
 

@@ -1,4 +1,5 @@
 #include <gallery/contact_sheet.h>
+#include <gallery/label.h>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +56,20 @@ TEST(ContactSheet, PlacesEachPictureInItsCell) {
   for (const Spectrum& p : sheet.pixels)
     if (p[0] >= 1) sum += double(p[0]);
   EXPECT_EQ(sum, 36 * (1 + 2 + 3) + 24 * 4 + 8 * 5);
+}
+
+// A line of text below each picture, a line above the columns and a column left of the rows.
+TEST(ContactSheet, LabelsHavePlacesOfTheirOwn) {
+  constexpr int gap = 4, line = carlo::label_height, side = 40;
+  const std::vector<Image> pictures(4, Image(side, 30));
+  const Image named = carlo::contact_sheet(pictures, 2, side, {.cells = {"a", "b", "c", "d"}});
+  EXPECT_EQ(named.width, gap + 2 * (side + gap));
+  EXPECT_EQ(named.height, gap + 2 * (30 + line + gap));
+  const Image table = carlo::contact_sheet(pictures, 2, side, {.columns = {"1", "4"}, .rows = {"mis", "nee"}});
+  EXPECT_EQ(table.width, gap + 30 + gap + 2 * (side + gap));
+  EXPECT_EQ(table.height, gap + line + 2 * (30 + gap));
+  for (int y = gap + line; y < gap + line + 30; ++y)
+    for (int x = 2 * gap + 30; x < 2 * gap + 30 + side; ++x) EXPECT_EQ(table.at(x, y)[0], 0) << "no text on a picture";
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include <gallery/label.h>
 #include <gallery/strategy_strip.h>
 
 #include <render/scene/builder.h>
@@ -29,14 +30,31 @@ render::RenderOptions tiny() {
   return settings;
 }
 
-// Seven strategies, or the two that find a point light. Each has six pictures; sides and gaps are 4 pixels.
-TEST(StrategyStrip, HasARowForEachStrategy) {
+// Pixels of the sheet that are as white as text, in the columns [left, right) and rows [top, bottom).
+int white(const render::Image& sheet, int left, int right, int top, int bottom) {
+  int count = 0;
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) count += (sheet.at(x, y) == 1).all() ? 1 : 0;
+  return count;
+}
+
+// Seven strategies, or the two that sample a point light; six pictures each, in cells as wide as "1024 spp".
+TEST(StrategyStrip, HasALabelledRowForEachStrategy) {
+  constexpr int gap = 4, line = 20, cell = 80;
+  const int left = gap + carlo::label_width("hemisphere") + gap;
   const render::Image all = carlo::strategy_strip(lit_floor(false), tiny(), {});
-  EXPECT_EQ(all.width, 6 * 8 + 4);
-  EXPECT_EQ(all.height, 7 * 7 + 4);
+  EXPECT_EQ(all.width, left + 6 * (cell + gap));
+  EXPECT_EQ(all.height, gap + line + 7 * (line + gap));
+  for (int column = 0; column < 6; ++column) {
+    const int x = left + column * (cell + gap);
+    EXPECT_GT(white(all, x, x + cell, 0, gap + line), 50) << column;
+  }
+  for (int row = 0; row < 7; ++row) {
+    const int y = gap + line + row * (line + gap);
+    EXPECT_GT(white(all, 0, left, y, y + line), 30) << row;
+  }
   const render::Image two = carlo::strategy_strip(lit_floor(true), tiny(), {});
-  EXPECT_EQ(two.width, 6 * 8 + 4);
-  EXPECT_EQ(two.height, 2 * 7 + 4);
+  EXPECT_EQ(two.height, gap + line + 2 * (line + gap));
   render::RenderOptions settings = tiny();
   const std::atomic<bool> cancel = true;
   settings.cancel = &cancel;
