@@ -56,6 +56,47 @@ json results(const ValidationRun& run) {
   return all;
 }
 
+// Rounds all numbers to `digits` significant digits.
+void shorten_numbers(json& j, int digits) {
+  if (j.is_number_float()) j = std::stod(fmt::format("{:.{}g}", j.get<double>(), digits));
+  if (!j.is_structured()) return;
+  for (json& part : j) shorten_numbers(part, digits);
+}
+
+// Leaves out what the page does not show: the details of checks that pass, and digits.
+void shorten(json& one, const mc::Report& r) {
+  one.erase("figures");
+  for (json& check : one["checks"]) {
+    check.erase("fault");
+    check.erase("share");
+    if (check["verdict"] == "pass")
+      for (const char* key : {"detail", "verdict"}) check.erase(key);
+    if (!check["p"].is_null())
+      for (const char* key : {"statistic", "limit"}) check.erase(key);
+    else check.erase("p");
+  }
+  for (json& cell : one["worst"])
+    for (const char* key : {"lo", "hi"}) cell.erase(key);
+  shorten_numbers(one["checks"], 4);
+  shorten_numbers(one, 6);
+  one["mass"] = r.mass;
+}
+
+// Largest number of cells, or of outcomes.
+constexpr std::size_t most_cells_of_pass = 512, most_cells_of_failure = 4096;
+
+json page_case(json one, const mc::Report& r) {
+  shorten(one, r);
+  if (!r.passed()) one["finding"] = r.finding();
+  if (!r.is_statistical()) one["p"] = nullptr;
+  if (!r.evidence) return one;
+  const std::size_t most = r.passed() ? most_cells_of_pass : most_cells_of_failure;
+  if (!r.evidence->cells.empty()) one["tree"] = pack_tree(*r.evidence, static_cast<int>(r.axes.size()), most);
+  else if (!r.evidence->outcomes.empty())
+    one["outcomes"] = {{"of", r.evidence->outcomes.size()}, {"counts", pack_outcomes(*r.evidence, most)}};
+  return one;
+}
+
 } // namespace
 
 std::string repeat_command(const Case& c, const ValidationSettings& settings, std::size_t cases) {
@@ -71,21 +112,9 @@ std::string repeat_command(const Case& c, const ValidationSettings& settings, st
 std::string validation_json(const ValidationRun& run) { return json_text(results(run)); }
 
 void write_validation_page(const std::string& file, const ValidationRun& run) {
-  const auto& [settings, cases, reports, interrupted, unchecked] = run;
   json all = results(run);
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const mc::Report& r = reports[i];
-    if (!r.evidence) continue;
-    json& one = all["cases"][i];
-    const std::size_t most = r.passed() ? 1024 : 4096;
-    if (!r.evidence->cells.empty()) {
-      const PackedTree tree = pack_tree(*r.evidence, static_cast<int>(r.axes.size()), most);
-      one["tree"] = {{"axes", tree.axes}, {"numbers", tree.numbers}};
-    } else if (!r.evidence->outcomes.empty()) {
-      one["outcomes"] = {{"of", r.evidence->outcomes.size()}, {"numbers", pack_outcomes(*r.evidence, most / 2)}};
-    }
-  }
-  mc::write_file(file, fill_page_template(json_text(all)));
+  for (std::size_t i = 0; i < run.reports.size(); ++i) all["cases"][i] = page_case(all["cases"][i], run.reports[i]);
+  mc::write_file(file, fill_page_template(all.dump(-1, ' ', false, json::error_handler_t::replace)));
 }
 
 } // namespace carlo

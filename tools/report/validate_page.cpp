@@ -1,29 +1,13 @@
+#include <report/packed.h>
 #include <report/validate_page.h>
 #include <validate_page_parts.h>
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
-#include <cstring>
 #include <vector>
 
 namespace carlo {
 namespace {
-
-std::string base64(const std::vector<float>& numbers) {
-  static_assert(std::endian::native == std::endian::little);
-  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes(4 * numbers.size());
-  if (!numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? digits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
 
 mc::CellCount join(const mc::CellCount& a, const mc::CellCount& b) {
   mc::CellCount c{a.lo, a.hi, a.observed + b.observed, a.expected + b.expected};
@@ -41,14 +25,14 @@ std::string replaced(std::string text, std::string_view mark, std::string_view b
 
 } // namespace
 
-PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most) {
+std::string pack_tree(const mc::PlotData& evidence, int dim, std::size_t most) {
   const std::size_t n = evidence.cells.size();
   if (n == 0) return {};
   std::vector<mc::CellCount> nodes(2 * n); // heap order, root at 1
   std::copy(evidence.cells.begin(), evidence.cells.end(), nodes.begin() + static_cast<std::ptrdiff_t>(n));
   for (std::size_t i = n; i-- > 1;) nodes[i] = join(nodes[2 * i], nodes[2 * i + 1]);
   const std::size_t kept = std::min(n, std::bit_floor(most));
-  PackedTree tree;
+  std::string split_axes;
   std::vector<float> numbers;
   for (std::size_t i = 1; i < kept; ++i) {
     const mc::CellCount &left = nodes[2 * i], &right = nodes[2 * i + 1];
@@ -56,13 +40,12 @@ PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most) {
     while (axis + 1 < static_cast<std::size_t>(dim) &&
            !(left.hi[axis] == right.lo[axis] && left.lo[axis] < right.lo[axis]))
       ++axis;
-    tree.axes += static_cast<char>('0' + axis);
+    split_axes += static_cast<char>('0' + axis);
     numbers.push_back(static_cast<float>(right.lo[axis]));
   }
   for (std::size_t i = kept; i < 2 * kept; ++i) numbers.push_back(static_cast<float>(nodes[i].observed));
   for (std::size_t i = kept; i < 2 * kept; ++i) numbers.push_back(static_cast<float>(nodes[i].expected));
-  tree.numbers = base64(numbers);
-  return tree;
+  return packed(split_axes, numbers);
 }
 
 std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most) {
@@ -74,7 +57,7 @@ std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most) {
     numbers[k] = static_cast<float>(sum.observed);
     numbers[kept + k] = static_cast<float>(sum.expected);
   }
-  return base64(numbers);
+  return packed("", numbers);
 }
 
 std::string fill_page_template(std::string_view data) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The page of carlo validate, filled from a template.
+/// The page of carlo validate.
 
 #include <mc/check/report/report.h>
 
@@ -8,21 +8,16 @@
 
 namespace carlo {
 
-/// A kd-tree of cells as text.
-struct PackedTree {
-  std::string axes; ///< one digit per inner node, in heap order
-  /// Base64 of 32-bit floats: the split of each inner node in heap order, then the observed and the expected counts.
-  std::string numbers;
-};
+/// The cells of a case as text, see packed(): one digit per inner node of their kd-tree in heap order (the axis), then
+/// a split per inner node, the observed counts and the expected counts. Neighbours are joined until at most `most` cells
+/// remain.
+std::string pack_tree(const mc::PlotData& evidence, int dim, std::size_t most);
 
-/// Returns the cells of the evidence, with neighbours joined until at most `most` remain.
-PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most);
-
-/// Returns the observed and expected counts of the outcomes, with neighbours joined until at most `most` remain, as
-/// base64 of 32-bit floats.
+/// Observed, then expected counts of the outcomes as text, see packed(). Neighbours are joined until at most `most`
+/// remain.
 std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most);
 
-/// Returns one HTML file without external resources. `data` is the JSON of validation_json, with evidence.
+/// The page: one HTML file that contains its script and its data. `data` is JSON, see tools/report/README.md.
 std::string fill_page_template(std::string_view data);
 
 } // namespace carlo

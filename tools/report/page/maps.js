@@ -1,35 +1,61 @@
 "use strict";
 // Cells, axes and canvases of the maps.
 
-// 32-bit floats in base64, little endian.
-const floats = text => new Float32Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
-
-// The cells of a case as {lo, hi, observed, expected}: a complete kd-tree of splits in heap order, then the counts.
-function cellsOf(c) {
-  if (c.cells) return c.cells;
-  const cells = [];
-  if (c.tree) {
-    const numbers = floats(c.tree.numbers), n = (numbers.length + 1) / 3;
-    const visit = (node, lo, hi) => {
-      if (node >= n) {
-        const i = node - n;
-        cells.push({lo, hi, observed: numbers[n - 1 + i], expected: numbers[2 * n - 1 + i]});
-        return;
-      }
-      const axis = +c.tree.axes[node - 1], at = numbers[node - 1];
-      visit(2 * node, lo, hi.map((x, d) => d === axis ? at : x));
-      visit(2 * node + 1, lo.map((x, d) => d === axis ? at : x), hi);
-    };
-    visit(1, c.axes.map(() => 0), c.axes.map(() => 1));
-  } else if (c.outcomes) {
-    const numbers = floats(c.outcomes.numbers), n = numbers.length / 2;
-    for (let i = 0; i < n; ++i) cells.push({lo: [i / n], hi: [(i + 1) / n], observed: numbers[i], expected: numbers[n + i]});
-  }
-  for (const cell of cells) cell.z = (cell.observed - cell.expected) / Math.sqrt(Math.max(cell.expected, 0.5));
-  return c.cells = cells;
+// The bytes of a zlib stream in base64.
+async function unpack(text) {
+  const source = new ReadableStream({start(controller) {
+    controller.enqueue(Uint8Array.from(atob(text), c => c.charCodeAt(0)));
+    controller.close();
+  }});
+  const reader = source.pipeThrough(new DecompressionStream("deflate")).getReader(), bytes = [];
+  for (let part = await reader.read(); !part.done; part = await reader.read()) for (const byte of part.value) bytes.push(byte);
+  return bytes;
 }
 
-// What a case's chart coordinates stand for; the numbers of outcomes where there is no chart.
+// 32-bit floats: the lowest byte of each, then the second byte of each, and so on.
+function floats(bytes) {
+  const n = bytes.length / 4, ordered = new Uint8Array(bytes.length);
+  bytes.forEach((byte, i) => { ordered[4 * (i % n) + Math.floor(i / n)] = byte; });
+  return new Float32Array(ordered.buffer);
+}
+
+// A complete kd-tree: the axis of each inner node in heap order, the splits, the counts.
+function cellsOfTree(bytes, dimensions) {
+  const n = (bytes.length + 5) / 13, axes = bytes.slice(0, n - 1).map(digit => digit - 48), numbers = floats(bytes.slice(n - 1));
+  const cells = [];
+  const visit = (node, lo, hi) => {
+    if (node >= n) {
+      const i = node - n;
+      cells.push({lo, hi, observed: numbers[n - 1 + i], expected: numbers[2 * n - 1 + i]});
+      return;
+    }
+    const axis = axes[node - 1], at = numbers[node - 1];
+    visit(2 * node, lo, hi.map((x, d) => d === axis ? at : x));
+    visit(2 * node + 1, lo.map((x, d) => d === axis ? at : x), hi);
+  };
+  visit(1, Array(dimensions).fill(0), Array(dimensions).fill(1));
+  return cells;
+}
+
+function cellsOfOutcomes(bytes) {
+  const numbers = floats(bytes), n = numbers.length / 2;
+  return Array.from({length: n}, (_, i) => ({lo: [i / n], hi: [(i + 1) / n], observed: numbers[i], expected: numbers[n + i]}));
+}
+
+// Unpacks the cells {lo, hi, observed, expected, z} of a case once. A browser of before 2023 has no maps.
+function load(c) {
+  c.loading ??= (async () => {
+    let cells = [];
+    if (typeof DecompressionStream === "undefined") cells = [];
+    else if (c.tree) cells = cellsOfTree(await unpack(c.tree), c.axes.length);
+    else if (c.outcomes) cells = cellsOfOutcomes(await unpack(c.outcomes.counts));
+    for (const cell of cells) cell.z = (cell.observed - cell.expected) / Math.sqrt(Math.max(cell.expected, 0.5));
+    c.cells = cells;
+  })();
+  return c.loading;
+}
+
+// Coordinates of the domain for each chart axis; the numbers of outcomes where there is no chart.
 const axesOf = c => c.tree ? c.axes : [{name: "outcome", scale: "linear", a: 0, b: c.outcomes ? c.outcomes.of : 1, unit: ""}];
 
 function valueOf(axis, v) {
@@ -153,11 +179,11 @@ function paper(canvas, width, height) {
 }
 
 const isDisk = axes => axes.length === 2 && axes[0].scale === "radius" && axes[1].scale === "azimuth";
-// Directions and disks have their first coordinate downwards, as a globe's map has; everything else to the right.
+// The first coordinate of directions and disks points down, as on a map of a globe; of other domains to the right.
 const across = axes => axes[1] && axes[1].scale === "azimuth" ? 1 : 0;
 
-// Draws a map of 2-D cells; colour(cell) is a CSS colour, rank(cell) larger for cells that must not be hidden. Returns what finds
-// the cell under a point.
+// Draws a map of 2-D cells. colour(cell) is a CSS colour; cells with a larger rank(cell) are drawn later. Returns a function from
+// a point to the cell below it.
 function drawMap(canvas, cells, axes, views, colour, rank, options) {
   const bare = options.bare, left = bare ? 0 : 46, top = bare ? 0 : 4, right = bare ? 0 : 8, bottom = bare ? 0 : 20;
   const width = bare ? 56 : canvas.clientWidth || 300, round = isDisk(axes) && options.mode === "true";

@@ -1,12 +1,12 @@
-// The table, its search and order, and what opens below a row. The address keeps the state: #q=metal&v=fail&sort=p&desc=1&open=3.
+// The table, its search and order, and the details of a case. The address keeps the state: #q=metal&v=fail&sort=p&desc=1&open=3.
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = id => document.getElementById(id);
 const rank = {fail: 0, inconclusive: 1, pass: 2};
-const columns = [["name", "Sampler"], ["scalar", "scalar"], ["p", "p"], ["detectable", "detects"], ["detectable_cell", "in a cell"],
+const columns = [["name", "Distribution"], ["scalar", "scalar"], ["p", "p"], ["detectable", "detects"], ["detectable_cell", "in a cell"],
   ["ns_per_sample", "ns"], ["seconds", "s"]];
 const words = {fail: "fails", inconclusive: "inconclusive", pass: "passes"};
 const state = {q: "", v: "", sort: "", desc: false, map: "", open: new Set()};
-const redraws = new Map(); // what to draw again when the width or the colours change
+const redraws = new Map(); // functions to call again when the width or the colours change
 
 // element("td", {class: "n"}, "text", child...)
 function element(tag, attributes = {}, ...children) {
@@ -21,7 +21,7 @@ function element(tag, attributes = {}, ...children) {
 }
 
 const percent = x => x > 1 ? ">100 %" : x > 0 ? short(100 * x, 2) + " %" : "\u2013";
-const probability = p => p === null ? "\u2013" : p >= 0.0995 ? p.toFixed(2) : short(p, 2);
+const probability = p => p === null || p === undefined ? "\u2013" : p >= 0.0995 ? p.toFixed(2) : short(p, 2);
 const spaced = n => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 const count = x => x >= 1e15 ? short(x) : Number.isInteger(x) ? spaced(x) : x >= 100 ? spaced(Math.round(x)) : short(x);
 const time = ns => ns > 0 ? ns < 100 ? ns.toFixed(1) : spaced(Math.round(ns)) : "\u2013";
@@ -33,8 +33,8 @@ function head() {
   const part = k => `${k} of ${n} case${n === 1 ? "" : "s"}`;
   $("verdict").className = verdict;
   $("verdict").textContent = failed ? `${part(failed)} fail${failed === 1 ? "s" : ""}` + (unsure ? `, ${unsure} inconclusive` : "")
-    : unsure ? `${part(unsure)} inconclusive` : n === 1 ? "The sampler obeys its laws" : `All ${n} cases obey their laws`;
-  if (data.interrupted) $("verdict").textContent += "; interrupted: these are the cases that were finished";
+    : unsure ? `${part(unsure)} inconclusive` : n === 1 ? "The distribution passes all checks" : `All ${n} cases pass`;
+  if (data.interrupted) $("verdict").textContent += "; interrupted, the page contains the finished cases";
   if (errors) $("verdict").textContent += `; ${errors} more could not be checked`;
   $("facts").textContent = [`${spaced(data.samples)} samples each`, `family-wise \u03b1 = ${data.alpha}`, `seed ${data.seed}`,
     `commit ${data.commit}`, `${short(data.cases.reduce((s, c) => s + c.seconds, 0), 3)} s of work`].join(" \u00b7 ");
@@ -50,7 +50,7 @@ function head() {
     $("columns").append(element("button", {type: "button", "data-key": key, class: kind, onclick: () => order(key)}, label));
   }
   $("columns").prepend(element("span"));
-  $("sort").append(element("option", {value: ""}, "failures first"));
+  $("sort").append(element("option", {value: ""}, "by verdict"));
   for (const [key, label] of columns) for (const desc of ["", "-"])
     $("sort").append(element("option", {value: desc + key}, `${label} ${desc ? "\u2193" : "\u2191"}`));
   $("sort").addEventListener("change", () => set({sort: $("sort").value.replace("-", ""), desc: $("sort").value.startsWith("-")}));
@@ -80,7 +80,7 @@ function row(c, i) {
   const item = element("li", {class: c.verdict, id: "case-" + i}, button);
   c.item = item, c.text = `${c.name} ${c.parameters} ${c.scalar} ${c.verdict}`.toLowerCase();
   thumbnails.observe(canvas);
-  canvas.draw = () => picture(canvas, c, "expected", {bare: true, mode: modeOf(c)});
+  canvas.draw = () => load(c).then(() => picture(canvas, c, "expected", {bare: true, mode: modeOf(c)}));
   return item;
 }
 
@@ -92,11 +92,11 @@ const thumbnails = new IntersectionObserver(entries => {
   }
 }, {rootMargin: "300px"});
 
-// True coordinates unless half of the samples lie in cells too small to see.
+// True coordinates, unless half of the samples lie in cells that are too small for the map.
 function modeOf(c) {
   if (state.map) return state.map;
   if (c.mode) return c.mode;
-  const cells = cellsOf(c), axes = axesOf(c), views = axes.map((axis, d) => viewOf(cells, axis, d, "true"));
+  const cells = c.cells, axes = axesOf(c), views = axes.map((axis, d) => viewOf(cells, axis, d, "true"));
   let seen = 0, all = 0;
   for (const cell of cells) {
     all += cell.expected;
@@ -105,7 +105,7 @@ function modeOf(c) {
   return c.mode = seen < 0.5 * all ? "equal" : "true";
 }
 
-// Cells of three axes as seen along the last.
+// Cells of three axes projected along the last.
 function flat(cells, axes) {
   if (axes.length < 3) return cells;
   const n = 24, grid = [];
@@ -129,7 +129,7 @@ function flat(cells, axes) {
 
 // Draws one kind of map (observed, expected, residual) of a case; returns the low and the high end of its colours.
 function picture(canvas, c, kind, options) {
-  const axes = axesOf(c).slice(0, 2), cells = flat(cellsOf(c), axesOf(c));
+  const axes = axesOf(c).slice(0, 2), cells = flat(c.cells, axesOf(c));
   if (!cells.length) return null;
   const views = axes.map((axis, d) => viewOf(cells, axis, d, options.mode));
   if (axes.length === 1) {
@@ -184,7 +184,7 @@ function maps(c) {
   return box;
 }
 
-// The p-value on its way, against the samples, both logarithmic.
+// The p-value against the samples, both logarithmic.
 function pCurve(c) {
   const alpha = c.alpha, w = 440, h = 190, left = 46, right = 10, top = 10, bottom = 24;
   const log = p => Math.log10(Math.max(p, 1e-30)), points = c.p_after;
@@ -219,32 +219,33 @@ function table(heads, rows) {
 
 function detail(c) {
   const box = element("div", {class: "detail"});
-  const broken = c.checks.filter(k => k.verdict !== "pass");
-  const found = k => k.p === null ? `${short(k.statistic, 4)}, limit ${short(k.limit, 4)}` : `p = ${probability(k.p)}`;
+  const broken = c.checks.filter(k => k.verdict);
+  const found = k => k.p === undefined ? `${short(k.statistic, 4)}, limit ${short(k.limit, 4)}` : `p = ${probability(k.p)}`;
   if (broken.length)
     box.append(element("div", {class: "fault " + c.verdict},
-      element("h3", {}, c.verdict === "fail" ? `Likely fault: ${c.fault}` : "Inconclusive: a test could not be trusted"),
+      element("h3", {}, c.finding || (c.verdict === "fail" ? "A check fails" : "A test is not reliable")),
+      c.verdict === "fail" ? element("p", {}, element("b", {}, "Likely cause: "), c.fault) : null,
       element("ul", {}, ...broken.map(k =>
         element("li", {}, element("b", {}, k.name), `: ${found(k)}${k.detail ? "; " + k.detail : ""}`)))));
-  box.append(element("p", {class: "again"}, "Again:", element("code", {}, c.again)));
-  if (cellsOf(c).length) {
+  box.append(element("p", {class: "again"}, "Repeat:", element("code", {}, c.again)));
+  if (c.cells.length) {
     const modes = element("span", {class: "modes", role: "group", "aria-label": "Axes of the maps"});
-    for (const [mode, label] of [["true", "true"], ["equal", "by equal shares"]])
+    for (const [mode, label] of [["true", "true"], ["equal", "equal probability"]])
       modes.append(element("button", {type: "button", "data-mode": mode, onclick: () => set({map: mode})}, label));
     box.append(element("div", {}, maps(c), element("p", {class: "mapping"}, "Coordinates:", modes,
-      `${spaced(cellsOf(c).length)} cells` + (axesOf(c).length > 2 ? ", seen along the third axis" : "") +
-      (c.mode === "equal" && !state.map ? "; stretched, for the lobe is too narrow to see otherwise" : ""))));
+      `${spaced(c.cells.length)} cells` + (axesOf(c).length > 2 ? ", projected along the third axis" : "") +
+      (c.mode === "equal" && !state.map ? "; stretched, because the density is narrow" : ""))));
   }
   const tables = element("div", {class: "tables"}), first = element("div", {class: "stack"});
   tables.append(first);
-  if (c.p_after && c.p_after.length > 1) first.append(element("section", {}, element("h2", {}, "p as the samples come in"), pCurve(c)));
+  if (c.p_after && c.p_after.length > 1) first.append(element("section", {}, element("h2", {}, "p-value against samples"), pCurve(c)));
   if (c.worst.length) {
     const where = w => [w.cell, w.where].filter(x => x).join(" at ");
     first.append(element("section", {class: "scroll"}, element("h2", {}, "Worst cells"),
       table([["where"], ["observed", "n"], ["expected", "n"], ["z", "n"]],
         c.worst.map(w => ({cells: [[where(w)], [count(w.observed), "n"], [count(w.expected), "n"], [short(w.z, 2), "n"]]})))));
   }
-  const error = k => k.p === null
+  const error = k => k.p === undefined
     ? [[short(k.statistic, 3), "n"], [short(k.limit, 3), "n"], ["", "n"]]
     : [["", "n"], ["", "n"], [probability(k.p), "n"]];
   tables.append(element("section", {class: "scroll"},
@@ -260,7 +261,18 @@ function toggle(i) {
   set({});
 }
 
-// Brings the page in line with the state.
+function showDetail(c) {
+  const box = detail(c);
+  c.item.append(box);
+  for (const canvas of box.querySelectorAll("canvas")) redraws.get(canvas)();
+  pressModes(c);
+}
+
+function pressModes(c) {
+  for (const b of c.item.querySelectorAll(".modes button")) b.setAttribute("aria-pressed", b.dataset.mode === modeOf(c));
+}
+
+// Updates the page to the state.
 function show() {
   const q = state.q.toLowerCase().split(/\s+/).filter(x => x);
   const key = state.sort, sign = state.desc ? -1 : 1, a = data.cases;
@@ -287,11 +299,9 @@ function show() {
       for (const canvas of now.querySelectorAll("canvas")) redraws.delete(canvas);
       now.remove();
     } else if (open && !now) {
-      const box = detail(c);
-      c.item.append(box);
-      for (const canvas of box.querySelectorAll("canvas")) redraws.get(canvas)();
+      load(c).then(() => { if (state.open.has(i) && !c.item.querySelector(".detail")) showDetail(c); });
     }
-    for (const b of c.item.querySelectorAll(".modes button")) b.setAttribute("aria-pressed", b.dataset.mode === modeOf(c));
+    pressModes(c);
   });
 }
 
