@@ -13,23 +13,23 @@ set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
 set ylabel "root-mean-square error"
 set xlabel "samples N"
 set format x "10^{%L}"
-plot "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.51 ± 0.02}", \
-     4.22349 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.66 ± 0.02}", \
-     5.90689 * x**(-0.666667) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-0.65 ± 0.02}", \
-     4.67275 * x**(-0.666667) with lines dt 3 lw 1 lc rgb "#228833" notitle, \
+plot "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#2160c2" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#2160c2" title "random: N^{-0.51 ± 0.02}", \
+     4.22349 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#2160c2" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#b73300" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#b73300" title "stratified: N^{-0.66 ± 0.02}", \
+     5.90689 * x**(-0.666667) with lines dt 3 lw 1 lc rgb "#b73300" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#15985d" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#15985d" title "sobol: N^{-0.65 ± 0.02}", \
+     4.67275 * x**(-0.666667) with lines dt 3 lw 1 lc rgb "#15985d" notitle, \
      NaN notitle
 set xlabel "CPU seconds"
 set format x "10^{%L}"
-plot "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random", \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified", \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol", \
+plot "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#2160c2" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#2160c2" title "random", \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#b73300" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#b73300" title "stratified", \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#15985d" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#15985d" title "sobol", \
      NaN notitle
 unset multiplot

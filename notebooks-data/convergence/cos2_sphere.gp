@@ -13,23 +13,23 @@ set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
 set ylabel "root-mean-square error"
 set xlabel "samples N"
 set format x "10^{%L}"
-plot "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.02}", \
-     3.90939 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.99 ± 0.03}", \
-     8.43882 * x**(-1) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-1.49 ± 0.03}", \
-     9.17477 * x**(-1.5) with lines dt 3 lw 1 lc rgb "#228833" notitle, \
+plot "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#2160c2" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#2160c2" title "random: N^{-0.49 ± 0.02}", \
+     3.90939 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#2160c2" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#b73300" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#b73300" title "stratified: N^{-0.99 ± 0.03}", \
+     8.43882 * x**(-1) with lines dt 3 lw 1 lc rgb "#b73300" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#15985d" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#15985d" title "sobol: N^{-1.49 ± 0.03}", \
+     9.17477 * x**(-1.5) with lines dt 3 lw 1 lc rgb "#15985d" notitle, \
      NaN notitle
 set xlabel "CPU seconds"
 set format x "10^{%L}"
-plot "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random", \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified", \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
-     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol", \
+plot "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#2160c2" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#2160c2" title "random", \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#b73300" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#b73300" title "stratified", \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#15985d" notitle, \
+     "cos2_sphere.csv" skip 1 using (strcol(2) eq "sobol" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#15985d" title "sobol", \
      NaN notitle
 unset multiplot

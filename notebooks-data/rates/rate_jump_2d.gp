@@ -13,18 +13,18 @@ set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
 set ylabel "root-mean-square error"
 set xlabel "samples N"
 set format x "10^{%L}"
-plot "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.48 ± 0.03}", \
-     0.50336 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
-     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.74 ± 0.02}", \
-     0.510996 * x**(-0.75) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+plot "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#2160c2" notitle, \
+     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#2160c2" title "random: N^{-0.48 ± 0.03}", \
+     0.50336 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#2160c2" notitle, \
+     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#b73300" notitle, \
+     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#b73300" title "stratified: N^{-0.74 ± 0.02}", \
+     0.510996 * x**(-0.75) with lines dt 3 lw 1 lc rgb "#b73300" notitle, \
      NaN notitle
 set xlabel "CPU seconds"
 set format x "10^{%L}"
-plot "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random", \
-     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified", \
+plot "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#2160c2" notitle, \
+     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#2160c2" title "random", \
+     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs transparent solid 0.18 noborder lc rgb "#b73300" notitle, \
+     "rate_jump_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#b73300" title "stratified", \
      NaN notitle
 unset multiplot
