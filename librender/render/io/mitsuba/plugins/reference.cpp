@@ -7,24 +7,24 @@ namespace {
 
 constexpr const char* introduction = R"(# Scene files
 
-Mitsuba's XML, versions 0.4 to 0.6, as `carlo render` reads it; `carlo render --help-scene` prints this. What is not
-listed here is refused with its file and line. What is marked (ours) is not Mitsuba's. Names may be written as in
-Mitsuba 2 and 3: `to_world`, `int_ior`.
+`carlo render` reads Mitsuba XML, versions 0.4 to 0.6. `carlo render --help-scene` prints this text. An element or
+parameter that is not listed is refused with its file and line. Entries marked (ours) are not in Mitsuba. Names of
+Mitsuba 2 and 3 are accepted: `to_world`, `int_ior`.
 
 - **Parameters** are written `<float name="fov" value="40"/>`: number `<float>` or `<integer>`, integer `<integer>`,
   boolean `<boolean>`, file and words `<string>`, point `<point>` or `<vector>` with x, y, z or a value.
 - **Colours** are `<rgb>` (linear sRGB) or `<srgb>` (by the sRGB curve) with three numbers, one for all, or `#rrggbb`;
-  or `<spectrum>` with one number or `wavelength:value` pairs [nm]; or `<float>`, a grey. Pairs of what reflects are
-  seen in light of equal energy, which makes white warm, as in Mitsuba 0.6, but in daylight in scenes of version 2 and
-  later, as in Mitsuba 3. Beyond the pairs a spectrum falls to 0 within their mean distance, from version 2 on at once;
-  lajolla's is held.
+  or `<spectrum>` with one number or `wavelength:value` pairs [nm]; or `<float>`, a grey. The illuminant of reflectance
+  spectra has equal energy, as in Mitsuba 0.6, so white is warm. It is daylight in scenes of version 2 and later, as in
+  Mitsuba 3. Beyond the pairs a spectrum falls to 0 within their mean distance, and from version 2 on at once. With
+  `--dialect lajolla` it stays constant.
 - **Transforms** are `<transform>` with `<translate>`, `<scale>`, `<rotate>` (angle in degrees), `<lookAt>` and
   `<matrix>` (16 numbers, row by row), applied in the order in which they stand.
 - **Variables**: `<default name="spp" value="16"/>` and then `$spp` in any value below it; of two defaults with one name
   the first counts, and before both `carlo render -D spp=16`.
 - **Files** are named relative to the scene file, or to a folder that `<path value="textures"/>` names above;
-  `<include filename="base.xml"/>` stands for what another scene file holds.
-- **References**: `<ref id="white"/>` stands for the element with this id, wherever that is.
+  `<include filename="base.xml"/>` inserts the content of another scene file.
+- **References**: `<ref id="white"/>` stands for the element with this id, at any place of the file.
 - "-" as default: the parameter must be given. Where lajolla's default differs, `--dialect lajolla` takes that one.
 )";
 
