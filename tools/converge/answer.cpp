@@ -12,8 +12,10 @@ namespace {
 // "0.1", "0.1 and 0.05", "0.2, 0.1 and 0.05".
 std::string list_of(const std::vector<double>& values, const std::string& unit) {
   std::string text;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    text += fmt::format("{}{:.3g}{}", i == 0 ? "" : i + 1 < values.size() ? ", " : " and ", values[i], unit);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) text += i + 1 < values.size() ? ", " : " and ";
+    text += fmt::format("{:.3g}{}", values[i], unit);
+  }
   return text;
 }
 

@@ -297,10 +297,12 @@ h2 { font-size: 1.15rem; margin-top: 1.6rem; }
 .best { fill: none; stroke: var(--line); stroke-width: 9; stroke-linejoin: round; stroke-linecap: round; }
 .tick, .label { fill: var(--soft); font-size: 12px; }
 .label { text-anchor: middle; }
-.winner { fill: var(--ink); font-size: 13px; font-weight: 600; paint-order: stroke; stroke: var(--card); stroke-width: 4px; }
+.winner { fill: var(--ink); font-size: 13px; font-weight: 600; }
+.winner { paint-order: stroke; stroke: var(--card); stroke-width: 4px; }
 .answer { font-size: 1.12em; margin: .7rem 0; max-width: 52rem; }
 .scroll { margin-top: .8rem; }
-i { display: inline-block; width: .8rem; height: .8rem; border-radius: 3px; margin-right: .5rem; vertical-align: -.08rem; }
+i { display: inline-block; width: .8rem; height: .8rem; border-radius: 3px; }
+i { margin-right: .5rem; vertical-align: -.08rem; }
 .wins { background: var(--ink); color: var(--card); border-radius: 6px; padding: .05rem .4rem; font-size: .8em; }
 .wins { font-weight: 600; white-space: nowrap; }
 td small { color: var(--soft); white-space: nowrap; }

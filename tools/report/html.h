@@ -10,8 +10,8 @@ namespace carlo {
 /// Returns the text with HTML special characters escaped, also for attributes.
 std::string escape_html(std::string_view text);
 
-/// A table with text as its head and HTML as its cells. On narrow screens each row is a card whose cells name their columns. Columns are aligned to
-/// the right, except the first. A cell "-" has no value and is left out of a card.
+/// A table with text as its head and HTML as its cells. On narrow screens each row is a card that names the column of
+/// each cell. Columns are aligned to the right, except the first. A cell "-" has no value, so cards omit it.
 class HtmlTable {
  public:
   enum class Width { narrow, wide }; ///< narrow: it fits a phone as it is

@@ -9,8 +9,8 @@
 namespace carlo {
 
 /// The cells of a case as text, see packed(): one digit per inner node of their kd-tree in heap order (the axis), then
-/// a split per inner node, the observed counts and the expected counts. Neighbours are joined until at most `most` cells
-/// remain.
+/// a split per inner node, the observed counts and the expected counts. Neighbours are joined until at most `most`
+/// cells remain.
 std::string pack_tree(const mc::PlotData& evidence, int dim, std::size_t most);
 
 /// Observed, then expected counts of the outcomes as text, see packed(). Neighbours are joined until at most `most`
