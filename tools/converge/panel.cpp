@@ -129,9 +129,9 @@ class Panel {
     for (auto e = errors.rbegin(); e != errors.rend(); ++e) band += point(options_.x(**e), (*e)->lo);
     std::string s;
     if (style.color) s += fmt::format("<polygon points=\"{}\" style=\"fill:{}\" fill-opacity=\".14\"/>", band, color);
-    const double plain_width = style.color ? 1.8 : 1.1, width = style.wins() ? 3.2 : plain_width;
+    const double plain_width = style.color ? 1.8 : 1.1, stroke_width = style.wins() ? 3.2 : plain_width;
     s += fmt::format("<polyline points=\"{}\" fill=\"none\" style=\"stroke:{}\" stroke-width=\"{}\"/>", middle, color,
-                     width);
+                     stroke_width);
     if (!options_.theory || !c.theory || !style.color) return s;
     const double first_x = options_.x(*errors.front()), last_x = options_.x(*errors.back()),
                  last_y = errors.back()->rms;

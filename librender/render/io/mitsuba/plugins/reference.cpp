@@ -62,12 +62,12 @@ std::vector<Kind> all_plugins() {
       {"film", "inside a sensor", texts(film_plugins())},
       {"rfilter", "inside a film", texts(filter_plugins())},
       {"sampler", "inside a sensor", texts(sampler_plugins())},
-      {"bsdf", "what covers a shape; of the scene with an id, or inside a shape", texts(bsdf_plugins())},
+      {"bsdf", "the material of a shape; of the scene with an id, or inside a shape", texts(bsdf_plugins())},
       {"texture", "a colour that varies; of the scene with an id, or a parameter", texts(texture_plugins())},
-      {"shape", "what is seen", texts(shape_plugins())},
-      {"medium", "inside a shape: what fills it; where one shape lies in another, both name what is between them",
+      {"shape", "the geometry", texts(shape_plugins())},
+      {"medium", "inside a shape: its interior; if one shape lies in another, both name the medium between them",
        texts(medium_plugins())},
-      {"emitter in a shape", "what makes it shine", texts(surface_emitter_plugins())},
+      {"emitter in a shape", "the light of its surface", texts(surface_emitter_plugins())},
       {"emitter", "of the scene: lights that are no shapes", texts(emitter_plugins())},
   };
 }
