@@ -10,11 +10,12 @@ void add_bsdfs(Catalogue& c) {
   const render::TexturedLambert picture(render::Bitmap(std::make_shared<const render::Texels>(2, 2, texels)));
   add_bsdf(c, "TexturedLambert", "between four texels", picture.at({0.3, 0.6}), {0, 60, 120});
   // The book's fuzzy metal is not reciprocal by definition.
-  add_bsdf(c, "Metal", "fuzz=0", render::FuzzyMetal{}, {0, 60, 89.9, 120}, {.reciprocal = false});
-  add_bsdf(c, "Metal", "fuzz=0.1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
+  add_bsdf(c, "FuzzyMetal", "fuzz=0", render::FuzzyMetal{}, {0, 60, 89.9, 120}, {.reciprocal = false});
+  add_bsdf(c, "FuzzyMetal", "fuzz=0.1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
            {.reciprocal = false, .mass_tolerance = 1e-4});
-  add_bsdf(c, "Metal", "fuzz=1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, 1), {0, 60, 85, 120}, {.reciprocal = false});
-  add_roughness_limit(c, "Metal", "fuzz -> 0",
+  add_bsdf(c, "FuzzyMetal", "fuzz=1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, 1), {0, 60, 85, 120},
+           {.reciprocal = false});
+  add_roughness_limit(c, "FuzzyMetal", "fuzz -> 0",
                       [](render::Float fuzz) {
                         return render::FuzzyMetal({0.9f, 0.8f, 0.7f}, fuzz);
                       },

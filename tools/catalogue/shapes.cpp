@@ -212,7 +212,7 @@ void add_choices(Catalogue& c) {
   const BsdfId gray = spheres.add(Lambert());
   for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
     spheres.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
-  add_choice(c, "LightChoice", "spheres of one size and place", std::move(spheres));
+  add_choice(c, "LightSampler", "spheres of one size and place", std::move(spheres));
   // Point and directional lights: only the choice of the light is random.
   for (const bool with_sun : {false, true}) {
     SceneBuilder points;

@@ -72,7 +72,7 @@ TEST(Catalogue, EveryDistribution_IsListed) {
   found.merge(types_with(root / "librender/render/camera", {"ray"}));
   found.merge(types_with(root / "librender/render/light", {"sample_index", "pmf"}));
   for (const char* type : {"Tent", "AliasTable", "Lambert", "RoughPlastic<LajollaBase>", "Sphere", "TriangleMesh",
-                           "BoxFilter", "ThinLens", "AreaLight", "LightChoice"})
+                           "BoxFilter", "ThinLens", "AreaLight", "LightSampler"})
     EXPECT_TRUE(found.contains(type)) << "the scan of the headers misses " << type;
   for (const std::string& type : found)
     EXPECT_TRUE(known.contains(type)) << type << " is in no file of tools/catalogue";
