@@ -43,7 +43,7 @@ void add_bsdfs(Catalogue& c) {
   add_bsdf(c, "SmoothConductor", "", render::SmoothConductor(gold, gold_k), {0, 60, 89.9, 120});
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0}) {
     const std::vector<double> angles = {0, 60, grazing(alpha), 120};
-    add_bsdf(c, "RoughConductor", fmt::format("Microfacets, alpha={}", alpha),
+    add_bsdf(c, "RoughConductor", fmt::format("TrowbridgeReitzFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::TrowbridgeReitzFacets(render::Float(alpha))), angles);
     add_bsdf(c, "RoughConductor", fmt::format("BlinnPhongFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), angles);
