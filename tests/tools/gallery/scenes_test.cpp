@@ -53,7 +53,7 @@ TEST(GalleryScenes, StratifiedPixelsUseTheDocumentedSampler) {
   EXPECT_EQ(options.sampler, render::PixelSampler::stratified);
   const auto sets = render::render(render::read_mitsuba(carlo::scene_file(boxes)).scene, options).estimates;
   EXPECT_EQ(sets, 2u) << "twice";
-  EXPECT_EQ(boxes.title, fmt::format("{} samples a pixel, one in each of {} boxes, twice", boxes.spp,
+  EXPECT_EQ(boxes.title, fmt::format("Cornell box, {} samples per pixel, stratified in {} boxes", boxes.spp,
                                      static_cast<unsigned>(boxes.spp) / sets));
 }
 
