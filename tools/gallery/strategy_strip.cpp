@@ -15,7 +15,7 @@ std::string error_percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "unknown";
 }
 
-std::string brightness(const StrategyResult& s, const StrategyResult* best) {
+std::string mean_text(const StrategyResult& s, const StrategyResult* best) {
   if (!best || !(best->mean.value > 0)) return "0";
   return fmt::format("{:.2f} +- {:.2f} %{}", 100 * s.mean.value / best->mean.value,
                      100 * s.mean.std_error / best->mean.value, s.misses_light ? ", misses light" : "");
@@ -56,13 +56,13 @@ std::string strategy_table(const std::vector<StrategyResult>& same_samples,
   for (const StrategyResult& s : same_samples)
     if (s.work > 0 && s.mean.value > 0 && !s.misses_light) least = std::min(least, s.work);
   std::string text = fmt::format("{:<12}{:>14}{:>10}{:>12}{:>14}  {}\n", "strategy", "same samples", "work",
-                                 "same time", "samples then", "brightness");
+                                 "same time", "spp in time", "mean");
   for (std::size_t i = 0; i < same_samples.size(); ++i) {
     const StrategyResult &s = same_samples[i], &t = same_time[i];
     mc::require(s.name == t.name, "strategies: {} with the same samples, {} in the same time", s.name, t.name);
     text += fmt::format("{:<12}{:>14}{:>10}{:>12}{:>14.4g}  {}\n", s.name, error_percent(s.relative_error),
                         s.work > 0 && std::isfinite(least) ? fmt::format("{:.3g}x", s.work / least) : "0",
-                        error_percent(t.relative_error), t.spp, brightness(s, best));
+                        error_percent(t.relative_error), t.spp, mean_text(s, best));
   }
   return text;
 }
