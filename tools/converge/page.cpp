@@ -40,11 +40,11 @@ std::string named_winner(const ConvergenceCurve& c, const CurveStyle& style) {
 
 /// Words that differ between integrals and scenes.
 struct Words {
-  std::string method, n, estimate;
+  std::string n, estimate;
 };
 Words words_of(const PageEntry& one) {
-  if (one.pictures) return {"method", "samples per pixel", "picture"};
-  return {one.trade_results ? "method" : "point set", "evaluations N", "estimate"};
+  if (one.pictures) return {"samples per pixel", "picture"};
+  return {"evaluations N", "estimate"};
 }
 
 std::vector<std::string> theory_cells(const ConvergenceCurve& c) {
@@ -105,8 +105,8 @@ std::string curve_table(const Section& section) {
   const PageEntry& one = section.one;
   const Words words = words_of(one);
   std::vector<std::string> head = {
-      words.method, words.n, "RMS error [95 %]", std::string(one.measurement->cost.axis), "slope [95 %]",
-      "theory",     "agrees"};
+      "method", words.n, "RMS error [95 %]", std::string(one.measurement->cost.axis), "slope [95 %]",
+      "theory", "agrees"};
   if (one.pictures) head.insert(head.end(), {"bias [95 %]", "pays above"});
   HtmlTable colored(head), grey(head);
   std::size_t others = 0;

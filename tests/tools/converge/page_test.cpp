@@ -107,7 +107,7 @@ TEST_F(ConvergencePage, Integral_HasNoPicturesAndNoBias) {
   m.curves = {c};
   m.truth = 3.14159;
   const std::string page = this->page(converge_header("carlo converge pi"), {{&target, &m}});
-  EXPECT_THAT(page, AllOf(HasSubstr("a book; 2 dimensions; truth 3.14159"), HasSubstr("<th>point set</th>"),
+  EXPECT_THAT(page, AllOf(HasSubstr("a book; 2 dimensions; truth 3.14159"), HasSubstr("<th>method</th>"),
                           HasSubstr("The cost is CPU seconds of one estimate."), Not(HasSubstr("bias")),
                           Not(HasSubstr("<figure")), Not(HasSubstr("class=\"best\""))));
   EXPECT_THAT(page, HasSubstr("10<tspan dy=\"-5\" font-size=\"8\">-6</tspan>"));

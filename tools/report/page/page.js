@@ -32,7 +32,7 @@ function head() {
   const n = data.cases.length, verdict = failed ? "fail" : unsure || errors ? "inconclusive" : "pass";
   const part = k => `${k} of ${n} case${n === 1 ? "" : "s"}`;
   $("verdict").className = verdict;
-  $("verdict").textContent = failed ? `${part(failed)} fail${failed === 1 ? "s" : ""}` + (unsure ? `, ${unsure} inconclusive` : "")
+  $("verdict").textContent = failed && n === 1 ? "The distribution fails" : failed ? `${part(failed)} fail${failed === 1 ? "s" : ""}` + (unsure ? `, ${unsure} inconclusive` : "")
     : unsure ? `${part(unsure)} inconclusive` : n === 1 ? "The distribution passes all checks" : `All ${n} cases pass`;
   if (data.interrupted) $("verdict").textContent += "; interrupted, the page contains the finished cases";
   if (errors) $("verdict").textContent += `; ${errors} more could not be checked`;
