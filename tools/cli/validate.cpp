@@ -24,9 +24,21 @@
 #include <cstdio>
 #include <mutex>
 #include <set>
+#include <string_view>
+#include <utility>
 
 namespace carlo {
 namespace {
+
+// A label or title with the former names of its distribution, or the same text. Former names are still accepted, and
+// the seeds of the cases follow from them, so that a seed gives the same random numbers as before the renaming.
+std::string former_name(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> renamed[] = {
+      {"FuzzyMetal", "Metal"}, {"LightSampler", "LightChoice"}, {"TrowbridgeReitzFacets", "Microfacets"}};
+  for (const auto& [name, former] : renamed)
+    if (const std::size_t at = text.find(name); at != std::string::npos) text.replace(at, name.size(), former);
+  return text;
+}
 
 // The cases that the names select: all cases of a distribution, or one case as --list prints it. Without a name, all
 // cases of the user's file.
@@ -42,7 +54,8 @@ std::vector<const Case*> select(const ValidateCommandOptions& o, const Catalogue
   for (const std::string& name : o.names) {
     bool known = false;
     for (const Case& c : catalogue) {
-      if (name != c.name && name != c.label()) continue;
+      if (name != c.name && name != c.label() && name != former_name(c.name) && name != former_name(c.label()))
+        continue;
       known = true;
       if (wanted(c)) chosen.push_back(&c);
     }
@@ -63,7 +76,7 @@ std::vector<const Case*> select(const ValidateCommandOptions& o, const Catalogue
 
 // The seed of a case. It depends neither on the other cases of the run nor on the folder of a file.
 std::uint64_t seed_of(const Case& c, const ValidateCommandOptions& o) {
-  std::string title = c.title();
+  std::string title = former_name(c.title());
   if (!o.samples_file.empty()) title = "samples";
   if (!o.sampler_command.empty()) title = "command"; // c.title() says where the program stands
   std::uint64_t seed = o.seed;

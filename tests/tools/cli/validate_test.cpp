@@ -32,6 +32,16 @@ TEST(Validate, Name_SelectsAllItsCases) {
                                        HasSubstr("double  pass"), HasSubstr("Linear(a=0, b=1)")));
 }
 
+TEST(Validate, FormerName_SelectsTheSameCases) {
+  for (const auto& [name, former] : {std::pair{"FuzzyMetal", "Metal"}, std::pair{"LightSampler", "LightChoice"}}) {
+    ValidateCommandOptions by_name = few({name}), by_former = few({former});
+    by_name.list = by_former.list = true;
+    const Output out = run(by_name);
+    EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
+    EXPECT_EQ(run(by_former).text, out.text) << former;
+  }
+}
+
 TEST(Validate, Scalar_SelectsOneType) {
   ValidateCommandOptions o = few({"CosineHemisphere"});
   o.scalar = "float";
