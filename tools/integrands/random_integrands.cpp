@@ -1,51 +1,23 @@
+#include <integrands/parameter_draw.h>
 #include <integrands/random_integrands.h>
 
 #include <mc/core/types.h>
-#include <mc/random/pcg.h>
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <utility>
 
 namespace carlo {
 
 namespace {
 
 using UnitPoint = std::span<const double>;
+using Draw = ParameterDraw;
 
-struct Draw {
-  mc::Pcg random;
-  int dim;
-  double scale;
-
-  Draw(std::uint64_t seed, int least, int most) : random(seed), dim(integer(least, most)), scale(1) {
-    scale = std::ldexp(1.0, integer(-40, 40));
-  }
-  double between(double lo, double hi) { return lo + (hi - lo) * random.uniform<double>(); }
-  int integer(int lo, int hi) { return std::min(hi, static_cast<int>(std::floor(between(lo, hi + 1)))); }
-  std::vector<double> each(double lo, double hi) {
-    std::vector<double> v(static_cast<std::size_t>(dim));
-    for (double& x : v) x = between(lo, hi);
-    return v;
-  }
-  UnitCubeIntegral made(const char* name, double truth, std::function<double(UnitPoint)> f) const {
-    return {name,
-            fmt::format("{} in {} dimensions", name, dim),
-            "made by machine",
-            dim,
-            scale * truth,
-            {},
-            0,
-            [f = std::move(f), s = scale](UnitPoint x) { return s * f(x); }};
-  }
-};
-
+// The product of term(i) over the axes, one for each element of `a`.
 template <class Term> double product(const std::vector<double>& a, Term&& term) {
-  double p = 1;
-  for (std::size_t i = 0; i < a.size(); ++i) p *= term(i);
-  return p;
+  return carlo::product(a.size(), std::forward<Term>(term));
 }
 
 UnitCubeIntegral step(std::uint64_t seed) {

@@ -6,6 +6,7 @@
 ///   unknown : runs without an error bar.
 ///   flagged : runs with inconsistent rounds.
 
+#include <integrands/composed_integrands.h>
 #include <integrands/random_integrands.h>
 #include <terminal/version.h>
 
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -64,7 +66,9 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) command += fmt::format(" {}", argv[i]);
   fmt::print("# command: {}\n# commit: {}\n# seed: {}\n", command, carlo::commit, first);
   fmt::print("class,method,rel_error,runs,covered,low,high,unknown,flagged,converged,rel_rms,rel_std_error,calls\n");
-  for (const carlo::IntegrandClass& kind : carlo::integrand_classes()) {
+  std::vector<carlo::IntegrandClass> all = carlo::integrand_classes();
+  all.insert(all.end(), carlo::composed_integrand_classes().begin(), carlo::composed_integrand_classes().end());
+  for (const carlo::IntegrandClass& kind : all) {
     if (!chosen(classes, kind.name)) continue;
     for (const mc::Method method : {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas,
                                     mc::Method::tree, mc::Method::automatic}) {
