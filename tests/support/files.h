@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -46,10 +47,12 @@ inline std::string error_of(const std::function<void()>& f) {
   return "";
 }
 
-/// Comparison data outside of the repository. Tests that only compare with them are skipped if they are absent.
-inline bool has_shared_file(const std::string& file) {
-  return std::filesystem::exists(std::string(MC_SHARED_DIR) + "/" + file);
+/// Reference images and scenes of others: they are not part of the project. The variable MC_REFERENCES names their
+/// folder; tests that only compare with them are skipped without it.
+inline std::string reference_file(const std::string& file) {
+  const char* folder = std::getenv("MC_REFERENCES");
+  return folder == nullptr ? "" : std::string(folder) + "/" + file;
 }
-inline std::string shared_file(const std::string& file) { return std::string(MC_SHARED_DIR) + "/" + file; }
+inline bool has_reference_file(const std::string& file) { return std::filesystem::exists(reference_file(file)); }
 
 } // namespace support

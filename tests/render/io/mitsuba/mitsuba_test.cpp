@@ -318,7 +318,7 @@ struct ReferenceImage {
 
   std::string path() const {
     const bool is_users = std::string_view(scene).find('/') != std::string_view::npos;
-    return is_users ? support::shared_file(scene) : gallery(scene);
+    return is_users ? support::reference_file(scene) : gallery(scene);
   }
   friend void PrintTo(const ReferenceImage& image, std::ostream* out) { *out << image.file; }
 };
@@ -326,9 +326,9 @@ struct Reference : testing::TestWithParam<ReferenceImage> {};
 
 TEST_P(Reference, BlocksAgree) {
   const auto [name, file, noise] = GetParam();
-  if (!support::has_shared_file(file)) GTEST_SKIP() << "the reference " << file << " is not here";
+  if (!support::has_reference_file(file)) GTEST_SKIP() << "the reference " << file << " is not here";
   if (!std::filesystem::exists(GetParam().path())) GTEST_SKIP() << "the scene " << name << " is not here";
-  const render::Image reference = render::read_image(support::shared_file(file));
+  const render::Image reference = render::read_image(support::reference_file(file));
   const auto [scene, defaults, origin, warnings, files] = render::read_mitsuba(GetParam().path());
   render::RenderOptions options;
   options.width = reference.width;
@@ -372,8 +372,8 @@ INSTANTIATE_TEST_SUITE_P(Mitsuba, Reference,
 // the gallery.
 TEST(LajollasScenes, LoadUnchanged) {
   for (const char* name : {"scenes/cbox/cbox.xml", "scenes/veach_mi/mi.xml", "scenes/matpreview/matpreview.xml"}) {
-    if (!support::has_shared_file(name)) GTEST_SKIP() << "the scene " << name << " is not here";
-    const auto file = render::read_mitsuba(support::shared_file(name));
+    if (!support::has_reference_file(name)) GTEST_SKIP() << "the scene " << name << " is not here";
+    const auto file = render::read_mitsuba(support::reference_file(name));
     render::RenderOptions options;
     options.width = 24;
     options.height = 16;
