@@ -47,7 +47,7 @@ void show(const carlo::GalleryScene& gallery_scene, int seeds, int spp, int side
   RenderOptions options;
   options.width = file.defaults.width;
   options.height = file.defaults.height;
-  options = carlo::shrunk(options, side);
+  options = carlo::shrink_to_fit(options, side);
   options.max_depth = file.defaults.max_depth;
   options.aov = file.defaults.aov;
   const Strategy best = options.strategy;
