@@ -1,6 +1,7 @@
 /// This is the only file that includes muParser.
 
 #include <integrands/expression.h>
+#include <integrands/special_functions.h>
 #include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
@@ -35,6 +36,13 @@ void define_words(mu::Parser& parser) {
   parser.DefineFun("not", negated);
   parser.DefineFun("if", chosen);
   parser.DefineFun("floor", whole_below);
+}
+
+// Special functions are no reserved words: a variable may be called gamma, since gamma(x) is told from gamma by its
+// parenthesis.
+void define_special_functions(mu::Parser& parser) {
+  for (const NamedFunction& f : special_functions())
+    std::visit([&](auto* function) { parser.DefineFun(f.name, function); }, f.f);
 }
 
 // Notation of other languages, and the equivalent in expressions.
@@ -75,6 +83,64 @@ std::string_view remedy(std::string_view expression, std::size_t at, const std::
   return two_values || glued ? "an operator is missing; a product is 2*x" : "";
 }
 
+// The words of a text with their positions. A word that follows a digit belongs to a number, such as 1e5.
+std::vector<std::size_t> word_starts(std::string_view text) {
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (in_word(text[i]) && !std::isdigit(static_cast<unsigned char>(text[i])) &&
+        (i == 0 || !(in_word(text[i - 1]) || text[i - 1] == '.')))
+      starts.push_back(i);
+  return starts;
+}
+
+std::string_view word_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && in_word(text[end])) ++end;
+  return text.substr(at, end - at);
+}
+
+bool is_called(std::string_view text, std::size_t at) {
+  const std::size_t next = text.find_first_not_of(" \t", at + word_at(text, at).size());
+  return next != text.npos && text[next] == '(';
+}
+
+// "unknown names 'expo', 'y'; did you mean 'exp'?; use one of ...": all unknown functions, or all unknown variables, of
+// the expression, whichever stands at this position. Empty if no unknown name stands there.
+std::string unknown_name(std::string_view expression, std::size_t at, const std::vector<std::string>& names) {
+  const std::vector<std::size_t> starts = word_starts(expression);
+  if (std::find(starts.begin(), starts.end(), at) == starts.end()) return {};
+  mu::Parser parser;
+  define_words(parser);
+  define_special_functions(parser);
+  const bool called = is_called(expression, at);
+  std::vector<std::string> known;
+  if (called)
+    for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
+  else {
+    known = names;
+    for (const auto& constant : parser.GetConst()) known.push_back(constant.first);
+  }
+  const auto is_known = [&](std::string_view word) {
+    return word == "and" || word == "or" || std::find(known.begin(), known.end(), word) != known.end();
+  };
+  std::vector<std::string> unknown;
+  for (const std::size_t start : starts) {
+    const std::string word(word_at(expression, start));
+    if (is_called(expression, start) == called && !is_known(word) &&
+        std::find(unknown.begin(), unknown.end(), word) == unknown.end())
+      unknown.push_back(word);
+  }
+  if (is_known(word_at(expression, at))) return {};
+  const std::string_view here = word_at(expression, at);
+  if (parser.GetFunDef().contains(std::string(here)))
+    return fmt::format("{0} is a function; its argument stands in parentheses: {0}(x)", here);
+  std::vector<std::string> everything = known;
+  for (const auto& function : parser.GetFunDef()) everything.push_back(function.first);
+  for (std::string& word : unknown) word = abbreviate(word);
+  return fmt::format("unknown {}{} '{}'{}; use one of {}", called ? "function" : "name", unknown.size() > 1 ? "s" : "",
+                     fmt::join(unknown, "', '"), mc::did_you_mean(here, everything), fmt::join(known, ", "));
+}
+
 mc::Error refusal(const std::string& expression, const mu::Parser::exception_type& e,
                   const std::vector<std::string>& names) {
   if (e.GetCode() == mu::ecEXPRESSION_TOO_LONG)
@@ -83,13 +149,14 @@ mc::Error refusal(const std::string& expression, const mu::Parser::exception_typ
   if (e.GetPos() < 0) return mc::Error(fmt::format("expression '{}': {}", abbreviate(expression), e.GetMsg()));
   const std::size_t at = std::min(static_cast<std::size_t>(e.GetPos()), expression.size());
   std::string complaint(remedy(expression, at, names));
+  if (complaint.empty()) complaint = unknown_name(expression, at, names);
   if (complaint.empty()) {
     complaint = e.GetMsg();
     for (const char* place : {" found at position", " at expression position", " at position"})
       complaint.resize(std::min(complaint.find(place), complaint.size()));
+    complaint = abbreviate(complaint);
   }
-  return mc::Error(
-      fmt::format("expression '{}', position {}: {}", abbreviate(expression, at), at, abbreviate(complaint)));
+  return mc::Error(fmt::format("expression '{}', position {}: {}", abbreviate(expression, at), at, complaint));
 }
 
 // muParser reads "x = 0.5" as an assignment, even within a sum.
@@ -135,6 +202,7 @@ struct Instance {
     refuse_chain(expression);
     try {
       define_words(parser);
+      define_special_functions(parser);
       for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);
       parser.SetExpr(expression);
       parser.Eval();

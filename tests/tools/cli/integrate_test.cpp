@@ -107,7 +107,15 @@ TEST(Expression, SyntaxErrorsSuggestTheRightSpelling) {
   for (const char* e : {"e^x", "2e*x"}) EXPECT_THAT(message(e), testing::HasSubstr(": e is _e;")) << e;
   for (const char* e : {"2x", "2 x", ".5x", "2.x", "2(x)", "(x)(x)", "x(2)", "2sin(x)", "sin(2x)", "x 2", "2_pi"})
     EXPECT_THAT(message(e), testing::EndsWith(": an operator is missing; a product is 2*x")) << e;
-  EXPECT_EQ(message("2*expo"), "expression '2*expo', position 2: Unexpected token \"expo\"");
+  EXPECT_EQ(message("2*expo"),
+            "expression '2*expo', position 2: unknown name 'expo'; did you mean 'exp'?; use one of x, _e, _pi");
+  EXPECT_EQ(message("a*x + 1e5 + b*a"),
+            "expression 'a*x + 1e5 + b*a', position 0: unknown names 'a', 'b'; use one of x, _e, _pi");
+  EXPECT_THAT(
+      message("x + gama(x) + foo (b)"),
+      testing::AllOf(testing::HasSubstr("unknown functions 'gama', 'foo'; did you mean 'gamma'?; use one of abs"),
+                     testing::HasSubstr(", besselj, ")));
+  EXPECT_THAT(message("sin x"), testing::HasSubstr("sin is a function; its argument stands in parentheses: sin(x)"));
   EXPECT_EQ(message("x+"), "expression 'x+', position 2: Unexpected end of expression");
   EXPECT_EQ(message(""), "expression '': Expression is empty.");
   EXPECT_EQ(message("x<.5?1"), "expression 'x<.5?1': If-then-else operator is missing an else clause");

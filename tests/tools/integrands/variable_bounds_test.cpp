@@ -53,8 +53,8 @@ TEST(VariableBounds, AcceptConstantExpressions) {
   EXPECT_EQ(bounds[2].hi, 9);
   const std::string none = " is not a number, inf, -inf or a constant expression: ";
   EXPECT_EQ(message("x=0:2*pi"), "--domain: '2*pi' in 'x=0:2*pi'" + none + "expression '2*pi', position 2: pi is _pi");
-  EXPECT_EQ(message("x=0:1,y=0:2*x"),
-            "--domain: '2*x' in 'y=0:2*x'" + none + "expression '2*x', position 2: Unexpected token \"x\"");
+  EXPECT_EQ(message("x=0:1,y=0:2*x"), "--domain: '2*x' in 'y=0:2*x'" + none +
+                                          "expression '2*x', position 2: unknown name 'x'; use one of _e, _pi");
   for (const std::string bad : {"1/0", "0/0", "-1/0"})
     EXPECT_THAT(message("x=0:" + bad), testing::HasSubstr("not a number, inf or -inf")) << bad;
   for (const std::string bad : {"", "nan", "1e999", "one", "1,2"})
