@@ -108,6 +108,7 @@ mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const 
   }
   for (int k = 0; k < plugin->outcomes; ++k) s.atoms.push_back(plugin.probability(k));
   s.uniforms = plugin.uniforms();
+  s.states_weight = plugin->weight != nullptr;
   s.may_fail = plugin->may_fail != 0;
   if (plugin->pdf_tolerance > 0) s.mass_tolerance = plugin->pdf_tolerance;
   if (plugin->weight_tolerance > 0) s.weight_tolerance = plugin->weight_tolerance;

@@ -47,14 +47,15 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CellCount, lo, hi, observed, expected)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlotData::PValueAfter, samples, p)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlotData, cells, outcomes, p_after)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedValue, name, value, std_error, where)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(UntriedLaw, name, reason)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Report, subject, alpha, samples, mass, mass_error, detectable, detectable_cell,
-                                   seconds, ns_per_sample, checks, axes, worst, evidence, figures)
+                                   seconds, ns_per_sample, checks, axes, worst, evidence, figures, untried)
 
 namespace {
 
 // Fails to compile after a field is added; list the field above as well.
 [[maybe_unused]] void every_field(Report& r, Check& c, Axis& x) {
-  [[maybe_unused]] auto& [r1, r2, r3, r4, r5, r6, r7, r8, r9, r10, r11, r12, r13, r14] = r;
+  [[maybe_unused]] auto& [r1, r2, r3, r4, r5, r6, r7, r8, r9, r10, r11, r12, r13, r14, r15] = r;
   [[maybe_unused]] auto& [c1, c2, c3, c4, c5, c6, c7, c8] = c;
   [[maybe_unused]] auto& [x1, x2, x3, x4] = x;
 }

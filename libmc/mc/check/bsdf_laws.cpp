@@ -64,6 +64,9 @@ Report check_bsdf(const AnyBsdf& given, const Vec3<double>& wo, const BsdfOption
     report.checks.insert(report.checks.end(), found.checks.begin(), found.checks.end());
     report.figures.insert(report.figures.end(), found.figures.begin(), found.figures.end());
   }
+  if (!bsdf.states_value)
+    report.untried.push_back({"weight = f |cos wi| / pdf", "a sample states neither f nor weight"});
+  if (!options.reciprocal) report.untried.push_back({"reciprocity", "reciprocal = false"});
   report.ns_per_sample = bsdf.ns_per_sample(wo);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

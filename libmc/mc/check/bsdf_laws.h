@@ -33,7 +33,11 @@ template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>&
   static_assert(detail::samples_directions<Bsdf, S>, "a BSDF needs sample(wo, uc, u) const or sample(wo, u) const");
   static_assert(detail::has_eval<Bsdf, S>, "a BSDF needs eval(wo, wi) const");
   static_assert(detail::has_direction_pdf<Bsdf, S>, "a BSDF needs pdf(wo, wi) const, a number");
-  if constexpr (BsdfOver<Bsdf, S>)
+  static_assert(
+      detail::checks_members<Bsdf, S>(),
+      "the sample has a member that is not checked: name it f if it is eval(wo, wi), or weight if it is f |cos "
+      "wi| / pdf; the other members are wi, pdf, delta and transmission");
+  if constexpr (BsdfOver<Bsdf, S> && detail::checks_members<Bsdf, S>())
     return check_bsdf(any_bsdf<S>(bsdf), Vec3<double>(wo.template cast<double>()), options);
   else return {};
 }

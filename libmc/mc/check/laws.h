@@ -8,7 +8,8 @@
 
 namespace mc {
 
-/// Returns the checks of every deterministic law that applies to the distribution. Each law gives one or more Checks:
+/// Returns the checks of every deterministic law that applies to the distribution, and adds the other laws to `untried`
+/// if it is not null. Each law gives one or more Checks:
 ///   boundary          : sample is finite and in the domain, and pdf is positive and finite, at critical values of u.
 ///                       These are all combinations of the ends, quarters and middle of [0,1) with their neighbours.
 ///                       find_breaks adds the neighbours of the branches along each axis. Faults of measure zero get a
@@ -26,7 +27,8 @@ namespace mc {
 ///                       oracle, differences in double to 1e-6 (needs invert).
 ///   precision         : sample and pdf agree with the 50-digit oracle within sample_eps and pdf_eps. The effect of
 ///                       rounding u is subtracted from the error of sample (needs an oracle).
-std::vector<Check> check_deterministic_laws(const AnyDistribution& distribution, const LawOptions& options);
+std::vector<Check> check_deterministic_laws(const AnyDistribution& distribution, const LawOptions& options,
+                                            std::vector<UntriedLaw>* untried = nullptr);
 
 /// Returns the distribution with the tolerances of `options`, which the statistical tests use too.
 AnyDistribution with_tolerances(AnyDistribution distribution, const LawOptions& options);

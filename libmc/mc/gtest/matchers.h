@@ -30,6 +30,9 @@ namespace detail {
 template <class W> constexpr bool is_distribution = ContinuousDistribution<std::remove_cvref_t<W>>;
 template <class Bsdf, class V>
 constexpr bool is_bsdf = BsdfOver<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>;
+template <class Bsdf, class V>
+constexpr bool
+    checks_bsdf_members = checks_members<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>();
 template <class Draw, class D>
 constexpr bool draws_points =
     std::invocable<Draw, Pcg&> || std::invocable<Draw, typename std::remove_cvref_t<D>::UnitPoint>;
@@ -61,9 +64,14 @@ testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsd
                                          BsdfOptions options = {}) {
   if (options.name == BsdfOptions{}.name)
     options.name = fmt::format("{}, wo = ({:.6g}, {:.6g}, {:.6g})", expression, wo.x(), wo.y(), wo.z());
-  if constexpr (detail::is_bsdf<Bsdf, Vec3<S>>)
-    return assert_passed(check_bsdf<S>(bsdf, wo, options), detail::full_bsdf_laws);
-  else return testing::AssertionFailure();
+  if constexpr (detail::is_bsdf<Bsdf, Vec3<S>> && detail::checks_bsdf_members<Bsdf, Vec3<S>>) {
+    try {
+      return assert_passed(check_bsdf<S>(bsdf, wo, options), detail::full_bsdf_laws);
+    } catch (const Error& e) {
+      return testing::AssertionFailure() << options.name << ": " << e.what();
+    }
+  }
+  return testing::AssertionFailure();
 }
 
 /// Result of EXPECT_SAMPLES_MATCH_PDF.
@@ -113,7 +121,9 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
       EXPECT_TRUE(::mc::obeys_laws(mc_expression, warp __VA_OPT__(, ) __VA_ARGS__))
 
 #define EXPECT_BSDF_LAWS(bsdf, wo, ...)                                                                                \
-  switch (constexpr bool mc_fits = ::mc::detail::is_bsdf<decltype(bsdf), decltype(wo)>; 0)                             \
+  switch (constexpr bool mc_fits = ::mc::detail::is_bsdf<decltype(bsdf), decltype(wo)>,                                \
+          mc_named = ::mc::detail::checks_bsdf_members<decltype(bsdf), decltype(wo)>;                                  \
+          0)                                                                                                           \
   case 0:                                                                                                              \
   default:                                                                                                             \
     switch (                                                                                                           \
@@ -122,6 +132,9 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
               static_assert(                                                                                           \
                   mc_fits,                                                                                             \
                   "a BSDF needs const sample(wo, uc, u) or sample(wo, u), eval(wo, wi) and pdf(wo, wi), a number");    \
+              static_assert(mc_named,                                                                                  \
+                            "the sample has a member that is not checked: name it f if it is eval(wo, wi), or weight " \
+                            "if it is f |cos wi| / pdf; the other members are wi, pdf, delta and transmission");       \
               return #bsdf;                                                                                            \
             }();                                                                                                       \
         0)                                                                                                             \

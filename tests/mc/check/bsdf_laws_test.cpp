@@ -1,5 +1,6 @@
 #include <mc/check/bsdf_laws.h>
 
+#include <mc/core/error.h>
 #include <mc/core/frame.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/henyey_greenstein.h>
@@ -212,6 +213,73 @@ TEST(BsdfLaws, PhaseFunction_Passes) {
   EXPECT_TRUE(r.passed()) << r.to_string();
   EXPECT_NEAR(r.figures[0].value, 1, 1e-12);
   EXPECT_EQ(mc::check_bsdf<double>(Phase{1.01}, V(0.6, 0, 0.8), options).fault(), Fault::weight);
+}
+
+// An eval that includes the cosine, with and without a nonreciprocal factor. The product of both cosines is symmetric,
+// but is no reciprocal f.
+struct WithCosine {
+  enum class Kind { right, nonreciprocal, symmetric, glossy, nonreciprocal_glossy } kind = Kind::right;
+  bool weighted = true;
+  struct Sample {
+    V wi;
+    double pdf;
+  };
+  double eval(const V& wo, const V& wi) const {
+    if (!(wo.z() > 0 && wi.z() > 0)) return 0;
+    const double lobe = std::pow(std::max(0.0, wi.dot(V(-wo.x(), -wo.y(), wo.z()))), 8);
+    switch (kind) {
+    case Kind::right: return 0.3 * wi.z();
+    case Kind::nonreciprocal: return 0.3 * wi.z() * (1 + 0.01 * wo.x());
+    case Kind::symmetric: return 0.3 * wi.z() * wo.z();
+    case Kind::glossy: return 0.1 * lobe * wi.z();
+    case Kind::nonreciprocal_glossy: return 0.1 * lobe * wi.z() * (1 + 0.1 * wo.z());
+    }
+    return 0;
+  }
+  double pdf(const V&, const V& wi) const { return wi.z() > 0 ? wi.z() / mc::pi<double> : 0; }
+  std::optional<Sample> sample(const V& wo, const mc::Vec2<double>& u) const {
+    const V wi = mc::CosineHemisphere<double>{}.sample(u);
+    return Sample{wi, pdf(wo, wi)};
+  }
+};
+
+TEST(BsdfLaws, EvalWithCosine_IsComparedWithoutIt) {
+  using Kind = WithCosine::Kind;
+  for (const V& wo : {V(0.6, 0, 0.8), V(0.6, -0.8, 0), V(0, 0, 1), V(0.28, 0.96 * 0.6, 0.96 * 0.8)}) {
+    const auto check = [&](Kind kind, bool cosine) {
+      return mc::check_bsdf<double>(WithCosine{kind}, wo, {.samples = 20'000, .cosine = cosine});
+    };
+    for (const Kind right : {Kind::right, Kind::glossy})
+      EXPECT_TRUE(check(right, false).passed()) << check(right, false).to_string();
+    if (wo.z() == 0 || wo.z() == 1) continue;
+    for (const Kind wrong : {Kind::nonreciprocal, Kind::symmetric, Kind::nonreciprocal_glossy})
+      EXPECT_TRUE(broken(check(wrong, false), "reciprocity")) << int(wrong) << check(wrong, false).to_string();
+    EXPECT_THAT(check(Kind::right, true).to_string(),
+                testing::AllOf(testing::HasSubstr("does eval include the cosine? Then set .cosine = false"),
+                               testing::HasSubstr("law: reciprocity")));
+  }
+}
+
+TEST(BsdfLaws, PhaseFunctionThatIsNotReciprocal_Fails) {
+  struct Skewed : Phase {
+    double eval(const V& wo, const V& wi) const { return pdf(wo, wi) * (1 + 0.01 * wo.z()); }
+  };
+  const mc::Report r = mc::check_bsdf<double>(Skewed{}, V(0.6, 0, 0.8), {.samples = 20'000, .cosine = false});
+  EXPECT_TRUE(broken(r, "reciprocity")) << r.to_string();
+}
+
+TEST(BsdfLaws, SampleWithoutValue_IsListedAsUntriedAndItsEnergyIsTested) {
+  const mc::Report r = mc::check_bsdf<double>(WithCosine{}, V(0.6, 0, 0.8), {.samples = 20'000, .cosine = false});
+  EXPECT_THAT(r.to_string(mc::ReportText::full),
+              testing::HasSubstr("not tried: weight = f |cos wi| / pdf (a sample states neither f nor weight)"));
+  ASSERT_EQ(r.figures.size(), 2u);
+  EXPECT_NEAR(r.figures[0].value, 0.3 * mc::pi<double>, 1e-9);
+}
+
+TEST(BsdfLaws, DirectionOfWrongLength_Throws) {
+  for (const V& wo : {V(1, 1, 1), V(0.3, 0, 0.4), V(0, 0, 0), V(NAN, 0, 1), V(0, 0, 1.0001)})
+    EXPECT_THROW(mc::check_bsdf<double>(Coated{}, wo, {.samples = 1000}), mc::Error);
+  EXPECT_TRUE(mc::check_bsdf<double>(Coated{}, V(0.577350, 0.577350, 0.577350), {.samples = 20'000}).passed());
 }
 
 } // namespace

@@ -68,6 +68,25 @@ const auto sampler = [](std::mt19937& g) { return std::generate_canonical<double
 TEST(My, Sampler) { EXPECT_SAMPLES_MATCH_PDF(sampler, [](double) { return 1.0; }, mc::Interval<double>(0, 1)); }
 )";
 
+// The value of a sample under any other name than f and weight.
+constexpr const char* bsdf_with_value = R"(
+struct MyBsdf {
+  struct Sample {
+    mc::Vec3<float> wi;
+    float pdf, value;
+  };
+  float eval(const mc::Vec3<float>&, const mc::Vec3<float>&) const { return 0; }
+  float pdf(const mc::Vec3<float>&, const mc::Vec3<float>&) const { return 0; }
+  std::optional<Sample> sample(const mc::Vec3<float>&, const mc::Vec2<float>&) const { return {}; }
+};
+const mc::Vec3<float> up(0, 0, 1);
+)";
+
+const std::string check_of_value = std::string("#include <mc/check/bsdf_laws.h>") + bsdf_with_value +
+                                   "const mc::Report report = mc::check_bsdf<float>(MyBsdf{}, up);\n";
+const std::string test_of_value = std::string("#include <mc/gtest/matchers.h>") + bsdf_with_value +
+                                  "TEST(My, Bsdf) { EXPECT_BSDF_LAWS(MyBsdf{}, up); }\n";
+
 class CompileErrors : public testing::TestWithParam<WrongProgram> {};
 
 TEST_P(CompileErrors, AreShortAndNameMissingMember) {
@@ -90,6 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongProgram{"GeneratorInAWarp", check_of_a_warp.c_str(), "sample(u) const must take u"},
                     WrongProgram{"GeneratorInATestOfAWarp", test_of_a_warp.c_str(),
                                  "sample(u), u of Domain::UnitPoint"},
+                    WrongProgram{"BsdfWithValue", check_of_value.c_str(), "a member that is not checked"},
+                    WrongProgram{"BsdfWithValueInATest", test_of_value.c_str(), "a member that is not checked"},
                     WrongProgram{"DomainWithoutConst", domain_without_const, "const from_unit, to_unit, jacobian"},
                     WrongProgram{"GeneratorInALambda", generator_in_a_lambda, "the function must take u"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });

@@ -167,4 +167,17 @@ TEST(Laws, NoSamples_SkipsStatisticalTests) {
   EXPECT_EQ(r.checks.size(), 10u);
 }
 
+TEST(Laws, LawsThatCannotBeTried_AreListed) {
+  struct Bare {
+    using Domain = mc::Interval<double>;
+    Domain domain() const { return {}; }
+    double sample(double u) const { return u; }
+    double pdf(double) const { return 1; }
+  };
+  EXPECT_EQ(check_laws(Bare{}, cheap()).untried_text(),
+            "not tried: batch consistency (sample takes one u at a time), pdf > 0 where eval > 0 (no eval), "
+            "invert(sample(u)) = u (no invert), |det| pdf = 1 (needs invert, and as many u as dimensions), float and "
+            "double against 50 digits (no cast to 50 digits), weight = f / pdf (a sample states no weight and no pdf)");
+}
+
 } // namespace

@@ -178,6 +178,13 @@ std::string Report::finding() const {
   return c->detail.empty() ? c->name : std::string(first_clause(c->detail));
 }
 
+std::string Report::untried_text() const {
+  std::string text;
+  for (const UntriedLaw& law : untried)
+    text += fmt::format("{}{} ({})", text.empty() ? "not tried: " : ", ", law.name, law.reason);
+  return text;
+}
+
 std::string Report::verdict_text() const {
   std::string text(name(verdict()));
   if (is_statistical()) text += fmt::format(", {} ({} samples, alpha {:.3g})", p_text(p()), samples, alpha);
@@ -200,6 +207,7 @@ std::string Report::to_string(ReportText detail, std::string_view hint) const {
   for (const ReportedValue& f : figures)
     text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error,
                         f.where.empty() ? "" : " at " + f.where);
+  if (!untried.empty()) text += "\n  " + untried_text();
   return text;
 }
 

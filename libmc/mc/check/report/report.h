@@ -108,9 +108,15 @@ struct ReportedValue {
   std::string where; ///< place or direction; may be empty
 };
 
+/// A law that was not tried, because the subject lacks what it needs.
+struct UntriedLaw {
+  std::string name;   ///< name of the law
+  std::string reason; ///< what is missing, for example "no invert"
+};
+
 /// Amount of text that Report::to_string returns.
 ///   brief : the finding, its likely cause, the check that found it, and the number of other checks that fail.
-///   full  : every check that does not pass, the worst cells and the reported values.
+///   full  : every check that does not pass, the worst cells, the reported values and the laws that were not tried.
 enum class ReportText : std::uint8_t { brief, full };
 
 /// All checks of one subject. Statistical checks share one family-wise alpha; see multiple_testing.h.
@@ -132,6 +138,7 @@ struct Report {
   std::vector<WorstCell> worst;       ///< the five worst cells or outcomes, worst first
   std::optional<PlotData> evidence;   ///< present only if the options request it
   std::vector<ReportedValue> figures; ///< quantities without a verdict
+  std::vector<UntriedLaw> untried;    ///< laws that were not tried
 
   Verdict verdict() const; ///< fail if any check fails, else inconclusive if any is inconclusive, else pass
   bool passed() const { return verdict() == Verdict::pass; } ///< whether the verdict is pass
@@ -147,6 +154,8 @@ struct Report {
   bool is_statistical() const;
   /// Returns the observed value, the expected value and the place of the leading check; empty for a pass.
   std::string finding() const;
+  /// Returns "not tried: invert(sample(u)) = u (no invert), ..."; empty if all laws were tried.
+  std::string untried_text() const;
   /// Returns one line:
   ///   "pass, p = 0.42 (1000000 samples, alpha 0.001); an error of the density of 3.8 % is detected (61 % in a
   ///   single patch)"

@@ -1,6 +1,7 @@
 #pragma once
 /// Type-erased scattering functions, the input of the BSDF laws.
 
+#include <mc/check/subject/field_count.h>
 #include <mc/check/subject/point_array.h>
 #include <mc/check/subject/timing.h>
 #include <mc/random/pcg.h>
@@ -58,6 +59,7 @@ struct AnyBsdf {
 
   bool is_float = false;      ///< the original computes in float
   bool open_interval = false; ///< sample requires random numbers in (0,1), without 0
+  bool states_value = true;   ///< a sample states f or weight
   /// Samples wi for wo; uc selects the lobe. Returns no value if the light is absorbed.
   std::function<std::optional<Sample>(const Direction& wo, double uc, const Vec2<double>& u)> sample;
   /// Returns f(wo, wi).
@@ -99,17 +101,34 @@ concept BsdfOver = detail::samples_directions<B, S> && detail::has_eval<B, S> &&
 
 namespace detail {
 
+/// Whether the sample of a BSDF states its value: f, or the weight f |cos| / pdf.
+template <class Sample> constexpr bool states_value = requires(const Sample d) { d.f; }
+|| requires(const Sample d) { d.weight; };
+/// Whether the sample of a BSDF has more members than wi, pdf, delta and transmission, but states no value.
+template <class Sample> constexpr bool hides_value() {
+  const int known = 2 + int(requires(const Sample d) { d.delta; }) + int(requires(const Sample d) { d.transmission; });
+  return !states_value<Sample> && field_count<Sample>() > known;
+}
+
+template <Real S, class Bsdf> auto scatter(const Bsdf& bsdf, const Vec3<S>& wo, S uc, const Vec2<S>& u) {
+  if constexpr (requires { bsdf.sample(wo, uc, u); }) return bsdf.sample(wo, uc, u);
+  else return bsdf.sample(wo, u);
+}
+/// The sample of a BSDF over scalar S.
+template <class Bsdf, class S>
+using BsdfSampleOf = std::remove_cvref_t<decltype(*scatter<S>(std::declval<const Bsdf&>(), Vec3<S>(), S(), Vec2<S>()))>;
+/// Whether no member of the sample is ignored.
+template <class Bsdf, class S> constexpr bool checks_members() {
+  if constexpr (samples_directions<Bsdf, S>) return !hides_value<BsdfSampleOf<Bsdf, S>>();
+  else return true;
+}
+
 template <class F> Channels channels_of(const F& f) {
   static_assert(point_size<F>() >= 1 && point_size<F>() <= Channels::max_count, "a BSDF has 1 to 8 channels");
   Channels c;
   c.count = components(f);
   for (int i = 0; i < c.count; ++i) c.value[static_cast<std::size_t>(i)] = component(f, i);
   return c;
-}
-
-template <Real S, class Bsdf> auto scatter(const Bsdf& bsdf, const Vec3<S>& wo, S uc, const Vec2<S>& u) {
-  if constexpr (requires { bsdf.sample(wo, uc, u); }) return bsdf.sample(wo, uc, u);
-  else return bsdf.sample(wo, u);
 }
 
 template <Real S, class Bsdf> double ns_per_scatter(const Bsdf& bsdf, const Vec3<S>& wo) {
@@ -127,10 +146,12 @@ template <Real S, class Bsdf> double ns_per_scatter(const Bsdf& bsdf, const Vec3
 /// Erases the type of a BSDF, any object with
 ///   sample(wo, uc, u) or sample(wo, u) -> optional of {wi, pdf, f or weight, perhaps delta and transmission}
 ///   eval(wo, wi) -> f,  pdf(wo, wi)
-/// where weight = f |cos| / pdf. The result lacks eval and pdf if the BSDF lacks them.
+/// where weight = f |cos| / pdf. A sample with other members, but without f and weight, does not compile. The result lacks eval and pdf if the BSDF lacks them.
 template <Real S, SamplesDirections<S> Bsdf> AnyBsdf any_bsdf(const Bsdf& given) {
+  using Drawn = detail::BsdfSampleOf<Bsdf, S>;
   const auto bsdf = std::make_shared<const Bsdf>(given);
   AnyBsdf any;
+  any.states_value = detail::states_value<Drawn>;
   any.is_float = std::same_as<S, float>;
   const auto to_s = [](const AnyBsdf::Direction& w) { return Vec3<S>(w.cast<S>()); };
   any.sample = [=](const AnyBsdf::Direction& wo, double uc, const Vec2<double>& u) -> std::optional<AnyBsdf::Sample> {
@@ -145,6 +166,9 @@ template <Real S, SamplesDirections<S> Bsdf> AnyBsdf any_bsdf(const Bsdf& given)
     else s.transmission = s.wi.z() * wo.z() < 0;
     if constexpr (requires { d.f; }) s.f = detail::channels_of(d.f);
     if constexpr (requires { d.weight; }) s.weight = detail::channels_of(d.weight);
+    // The energy of a sample without a stated value comes from eval.
+    if constexpr (BsdfOver<Bsdf, S> && !detail::states_value<Drawn>)
+      if (!s.delta) s.f = detail::channels_of(bsdf->eval(to_s(wo), d.wi));
     return s;
   };
   if constexpr (BsdfOver<Bsdf, S>) {

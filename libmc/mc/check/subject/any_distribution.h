@@ -101,6 +101,7 @@ struct AnyDistribution {
   bool is_float = false;                     ///< u and x are floats
   bool may_fail = false;                     ///< sample may fail, with probability 1 - mass
   bool open_interval = false;                ///< sample requires u in (0,1), without 0
+  bool states_weight = false;                ///< a sample states weight, pdf or f, which Sample::weight compares
   std::vector<double> atoms;                 ///< claimed probabilities of the discrete outcomes
   std::array<std::vector<double>, 3> breaks; ///< positions of jumps, see Subject
 

@@ -3,6 +3,7 @@
 
 #include <mc/check/subject/any_distribution.h>
 #include <mc/check/subject/chart_axes.h>
+#include <mc/check/subject/field_count.h>
 #include <mc/check/subject/timing.h>
 #include <mc/table/concept.h>
 #include <mc/warp/concept.h>
@@ -177,22 +178,37 @@ template <class Value> AnyDistribution::Stated stated_weight(const Value& weight
   return stated;
 }
 
-/// Converts a result of sample to AnyDistribution::Sample. The result is a point, or a struct of x, weight and perhaps
-/// pdf.
+/// Whether a result of sample is a struct with a point x; else it is a point.
+template <class D, class Held>
+constexpr bool is_struct = !std::convertible_to<Held, typename D::Point> && requires(const Held& held) {
+  held.x;
+};
+template <class Held> constexpr bool states_weight = requires(const Held& held) { held.weight; };
+template <class Held> constexpr bool states_pdf = requires(const Held& held) { held.pdf; };
+/// Whether a struct has no members but x, weight and pdf, as far as they can be counted.
+template <class Held> constexpr bool is_known_struct() {
+  return field_count<Held>() <= 1 + int(states_weight<Held>) + int(states_pdf<Held>);
+}
+
+/// Converts a result of sample to AnyDistribution::Sample. The result is a point, or a struct of x and perhaps weight
+/// and pdf.
 template <Domain D, class Held, class Pdf, class F>
 AnyDistribution::Sample make_sample(const Held& held, const D& domain, const Pdf& pdf, const F& f) {
   AnyDistribution::Sample d;
-  if constexpr (requires { held.weight; }) {
+  if constexpr (is_struct<D, Held>) {
     const typename D::Point x = held.x;
     d.x = to_array<double>(x);
     if (!all_finite(x) || !domain.contains(x)) return d;
     const auto density = static_cast<typename D::Scalar>(pdf(x));
     d.pdf = static_cast<double>(density);
-    using Value = std::remove_cvref_t<decltype(held.weight)>;
-    const auto value = Value(f(x));
-    double off = relative_difference(Value(held.weight * density), value);
-    d.stated = stated_weight(Value(held.weight), value, d.pdf);
-    if constexpr (requires { held.pdf; }) {
+    double off = 0;
+    if constexpr (states_weight<Held>) {
+      using Value = std::remove_cvref_t<decltype(held.weight)>;
+      const auto value = Value(f(x));
+      off = relative_difference(Value(held.weight * density), value);
+      d.stated = stated_weight(Value(held.weight), value, d.pdf);
+    }
+    if constexpr (states_pdf<Held>) {
       const double of_pdf = relative_difference(static_cast<double>(held.pdf), d.pdf);
       if (of_pdf > off) d.stated = {"pdf", static_cast<double>(held.pdf), d.pdf, ""};
       off = std::max(off, of_pdf);
@@ -214,9 +230,12 @@ template <Domain D, class Draw, class Pdf, class F> struct DistributionFunctions
   Chart chart = domain.template cast<double>();
   template <class Result> std::optional<AnyDistribution::Sample> to_sample(const Result& result) const {
     using Held = typename Unwrapped<Result>::type;
+    static_assert(!states_weight<Held> || !std::same_as<F, std::nullptr_t>,
+                  "make_distribution: a sample with a weight needs f, since weight = f / pdf");
     static_assert(
-        !requires(const Held& held) { held.weight; } || !std::same_as<F, std::nullptr_t>,
-        "make_distribution: a sample with a weight needs f, since weight = f / pdf");
+        !is_struct<D, Held> || is_known_struct<Held>(),
+        "make_distribution: the sample has a member that is not checked; the members are x, pdf, and weight = "
+        "f / pdf");
     if (is_empty(result)) return {};
     return make_sample(unwrapped(result), domain, pdf, f);
   }
@@ -246,8 +265,8 @@ template <Domain D, class Draw, class Pdf, class F> struct DistributionFunctions
 
 /// Returns a distribution on a domain from functions.
 ///   sample : takes u, a point of the unit cube with the domain's dimension, or mc::Pcg& to draw any number of random
-///            numbers. Returns a point x; or a struct of x, weight and perhaps pdf; or an optional of either, empty if
-///            it fails. The weight must be f / pdf, for example radiance over density for a light.
+///            numbers. Returns a point x; or a struct of x and perhaps weight and pdf; or an optional of either, empty
+///            if it fails. The weight must be f / pdf, for example radiance over density for a light.
 ///   pdf, f : functions of x; f may return several channels as an Eigen array.
 template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
 [[gnu::cold]] AnyDistribution make_distribution(std::string name, const D& domain, Draw draw, Pdf pdf, F f = nullptr) {
@@ -259,22 +278,26 @@ template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
   const auto shared =
       std::make_shared<const Functions>(Functions{domain, std::move(draw), std::move(pdf), std::move(f)});
   if constexpr (streams) {
-    s.may_fail = detail::may_be_empty<std::invoke_result_t<const Draw&, Pcg&>>;
+    using Result = std::invoke_result_t<const Draw&, Pcg&>;
+    s.may_fail = detail::may_be_empty<Result>;
+    s.states_weight = detail::is_struct<D, typename detail::Unwrapped<Result>::type>;
     detail::set_shared(s.sample_stream, shared,
                        [](const Functions& g, Pcg& random) { return g.to_sample(g.draw(random)); });
   } else if constexpr (takes_u) {
-    s.may_fail = detail::may_be_empty<std::invoke_result_t<const Draw&, typename D::UnitPoint>>;
+    using Result = std::invoke_result_t<const Draw&, typename D::UnitPoint>;
+    using Held = typename detail::Unwrapped<Result>::type;
+    s.may_fail = detail::may_be_empty<Result>;
+    s.states_weight = detail::is_struct<D, Held>;
     s.uniforms = D::dim;
     detail::set_shared(s.sample, shared, [](const Functions& g, const AnyDistribution::Uniforms& u) {
       return g.to_sample(g.draw(detail::to_point<typename D::UnitPoint>(u)));
     });
-    using Held = typename detail::Unwrapped<std::invoke_result_t<const Draw&, typename D::UnitPoint>>::type;
-    if constexpr (!requires(const Held& held) { held.weight; })
+    if constexpr (!detail::is_struct<D, Held>)
       detail::set_shared(
           s.draw_many, shared,
           [](const Functions& g, std::span<const AnyDistribution::Uniforms> u, std::span<Subject::Draw> draws) {
             // One step for all points at a time: processors overlap short loops better than long loops.
-            std::vector<std::invoke_result_t<const Draw&, typename D::UnitPoint>> results;
+            std::vector<Result> results;
             results.reserve(u.size());
             for (const AnyDistribution::Uniforms& one : u)
               results.push_back(g.draw(detail::to_point<typename D::UnitPoint>(one)));
@@ -318,6 +341,7 @@ template <DiscreteDistribution D> AnyDistribution make_discrete_distribution(std
   s.name = std::move(name);
   s.is_float = std::same_as<S, float>;
   s.uniforms = 1;
+  s.states_weight = true;
   for (std::size_t i = 0; i < distribution.size(); ++i) s.atoms.push_back(static_cast<double>(distribution.pmf(i)));
   const auto shared = std::make_shared<const D>(distribution);
   s.sample = [shared](const AnyDistribution::Uniforms& u) -> std::optional<AnyDistribution::Sample> {

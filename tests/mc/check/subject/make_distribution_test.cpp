@@ -49,6 +49,23 @@ TEST(MakeDistribution, StatedWeight_IsComparedWithF) {
   EXPECT_NEAR(with(1.1).sample({0.5})->weight, 1.1, 1e-12);
 }
 
+TEST(MakeDistribution, StatedPdfWithoutWeight_IsComparedWithPdf) {
+  struct Dense {
+    double x, pdf;
+  };
+  const auto with = [](double bug) {
+    return mc::make_distribution(
+        "dense", mc::Interval<double>(),
+        [bug](double u) {
+          return Dense{std::sqrt(u), bug * 2 * std::sqrt(u)};
+        },
+        [](double x) { return 2 * x; });
+  };
+  EXPECT_TRUE(with(1).states_weight);
+  EXPECT_NEAR(with(1).sample({0.5})->weight, 1, 1e-12);
+  EXPECT_NEAR(with(0.9).sample({0.5})->weight, 1.1, 1e-12);
+}
+
 TEST(MakeDistribution, DiscreteDistribution_HasOutcomesOnly) {
   const AnyDistribution s = mc::make_discrete_distribution("alias", mc::AliasTable(std::vector<double>{1, 0, 3}));
   EXPECT_EQ(s.domain.dim, 0);

@@ -2,6 +2,7 @@
 
 #include <mc/check/fit/alpha_shares.h>
 #include <mc/check/fit/interior_density.h>
+#include <mc/core/sum.h>
 #include <mc/core/types.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>
@@ -65,6 +66,25 @@ std::vector<UnitBox> extents(const PilotCells& cells, const Pilot& pilot, int le
   return extent;
 }
 
+double sum_of_outcomes(const Subject& s) {
+  CompensatedSum sum;
+  for (const double p : s.atoms) sum.add(p);
+  return sum.value();
+}
+
+// A table of n probabilities was divided by a sum of n terms, which rounding changes by up to n epsilons. The bound
+// stops at the tolerance for printed probabilities.
+double rounding_of_outcomes(const Subject& s) {
+  return std::min(static_cast<double>(s.atoms.size()) * s.epsilon, 1e-4);
+}
+
+// Returns "1 + 2e-9" for a number whose six digits do not show its distance from 1.
+std::string near_one(double x) {
+  const double off = x - 1;
+  if (off == 0 || std::abs(off) > 1e-3) return fmt::format("{:.6g}", x);
+  return fmt::format("1 {} {:.3g}", off < 0 ? '-' : '+', std::abs(off));
+}
+
 } // namespace
 
 CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const PilotCells& cells, double n,
@@ -94,9 +114,7 @@ CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const Pil
 ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const EstimatedMass& reference,
                          const EstimatedMass& uncapped, const SampleWeights& samples) {
   ClaimedMass mass;
-  const double n = samples.draws;
-  double outcomes = 0;
-  for (const double p : s.atoms) outcomes += p;
+  const double n = samples.draws, outcomes = sum_of_outcomes(s);
   // The samples themselves estimate the mass above the caps of the reference.
   const double clipped = (samples.points - samples.sum) / n;
   const double clipped_variance = (samples.points - 2 * samples.sum + samples.squares) / (n * n);
@@ -108,6 +126,7 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   mass.from_points_error = std::sqrt(uncapped.worst_case_variance()) + s.mass_tolerance;
   if (s.dim == 0) {
     mass.value = outcomes;
+    mass.error = rounding_of_outcomes(s);
     return mass;
   }
   // Cubature that missed a jump or a lobe has a larger error than its bound. Its value is accepted within `agreed`
@@ -150,6 +169,11 @@ Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
     else if (!(mass.estimated_error <= 0.03)) c.verdict = Verdict::inconclusive;
   }
   if (c.verdict == Verdict::pass) return c;
+  if (s.dim == 0) {
+    c.detail = fmt::format("the {} probabilities add up to {}, should be {}1", s.atoms.size(), near_one(mass.value),
+                           s.may_fail ? "at most " : "");
+    return c;
+  }
   c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}, should be {}1", mass.value, mass.error,
                          s.may_fail ? "at most " : "");
   // Wrong samples where the density is high do not imply a wrong integral.

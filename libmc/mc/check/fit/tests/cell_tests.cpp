@@ -214,18 +214,38 @@ void correlation(const PooledCells& cells, const std::vector<Axis>& named, std::
       1, share, alpha, fmt::format("the rank correlation is off by {:.3g}", (sum - n * mean) / n)));
 }
 
-void ks(const PooledCells& cells, const std::vector<Axis>& named, std::size_t axis, double share, double alpha,
-        CellTests& result) {
-  const auto place = [&](std::size_t i) { return cells.cells[i].rank_lo[axis] + cells.cells[i].rank_hi[axis]; };
-  std::vector<std::size_t> order(cells.cells.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return place(i) < place(j); });
-  double excess = 0, worst = 0;
-  const double n = cells.n;
-  for (const std::size_t i : order) {
-    excess += cells.cells[i].observed - n * cells.cells[i].p;
+// Returns the largest difference of the cumulative distributions along an axis. Each cell spreads its excess evenly over
+// its ranks, so that an error along another axis, which changes cells of any width, cancels.
+double largest_cumulative_excess(const PooledCells& cells, std::size_t axis) {
+  struct Event {
+    double rank, slope, jump;
+  };
+  std::vector<Event> events;
+  for (const Cell& c : cells.cells) {
+    const double excess = c.observed - cells.n * c.p, lo = c.rank_lo[axis], width = c.rank_hi[axis] - lo;
+    if (width > 0) {
+      events.push_back({lo, excess / width, 0});
+      events.push_back({c.rank_hi[axis], -excess / width, 0});
+    } else {
+      events.push_back({lo, 0, excess});
+    }
+  }
+  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.rank < b.rank; });
+  double excess = 0, slope = 0, at = 0, worst = 0;
+  for (const Event& e : events) {
+    excess += slope * (e.rank - at);
+    at = e.rank;
+    if (std::abs(excess) > std::abs(worst)) worst = excess;
+    slope += e.slope;
+    excess += e.jump;
     if (std::abs(excess) > std::abs(worst)) worst = excess;
   }
+  return worst;
+}
+
+void ks(const PooledCells& cells, const std::vector<Axis>& named, std::size_t axis, double share, double alpha,
+        CellTests& result) {
+  const double n = cells.n, worst = largest_cumulative_excess(cells, axis);
   const double lambda = std::abs(worst) / std::sqrt(n * cells.dispersion() + n * n * cells.variance.back());
   Check c{"KS, " + axis_name(named, axis),
           Verdict::pass,

@@ -1,6 +1,7 @@
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
 #include <mc/check/subject/make_distribution.h>
+#include <mc/core/error.h>
 #include <mc/domain/sphere.h>
 
 namespace mc {
@@ -157,13 +158,23 @@ std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const A
 
 } // namespace
 
+void require_unit(const AnyBsdf::Direction& wo) {
+  const double length = wo.norm();
+  require(std::abs(length - 1) <= 1e-5,
+          "check_bsdf: wo = ({:.9g}, {:.9g}, {:.9g}) has length {:.9g}, should be 1; "
+          "normalise it",
+          wo.x(), wo.y(), wo.z(), length);
+}
+
 AnyDistribution bsdf_distribution(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
+  require_unit(wo);
   const Lobes lobes = find_lobes(bsdf, wo, options);
   AnyDistribution s = bsdf.is_float ? detail::distribution_on(options.name, Sphere<float>{})
                                     : detail::distribution_on(options.name, Sphere<double>{});
   if (!lobes.continuous) s.domain.dim = 0;
   s.may_fail = true;
   s.open_interval = options.open_interval;
+  s.states_weight = true;
   s.weight_tolerance = options.tolerance;
   s.mass_tolerance = options.mass_tolerance;
   if (lobes.probability[0] > 0 || lobes.probability[1] > 0) s.atoms = {lobes.probability[0], lobes.probability[1]};

@@ -57,6 +57,9 @@ std::string describe(const BsdfView& view, const DirectionPair& pair);
 /// Returns "(0.6, 0, 0.8) [theta 36.9 deg, phi 0 deg]".
 std::string describe_direction(const AnyBsdf& bsdf, const AnyBsdf::Direction& w);
 
+/// Throws Error unless wo has length 1, to 1e-5.
+void require_unit(const AnyBsdf::Direction& wo);
+
 /// Returns the distribution of wi on the sphere for a fixed wo. Delta lobes, at most one per side, become discrete
 /// outcomes: 0 is reflection, 1 is transmission.
 ///   weight : 1 if the stated f, weight and pdf of a sample agree with eval and pdf. For a delta lobe, 1 if its stated

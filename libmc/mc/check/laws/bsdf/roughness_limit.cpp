@@ -73,6 +73,7 @@ void compare_evals(const AnyBsdf& here, const AnyBsdf& there, double r, double d
 
 std::vector<Check> check_limit(const std::function<AnyBsdf(double r)>& family, const AnyBsdf& limit,
                                const AnyBsdf::Direction& wo, const RoughnessLimitOptions& options) {
+  require_unit(wo);
   WorstError sample("sample tends to its smooth limit", 0, Fault::physics);
   WorstError eval("eval is continuous in roughness", 0, Fault::physics);
   for (int k = 2; k <= 16; k += 2) {
