@@ -1,8 +1,8 @@
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
-#include <integrands/expression.h>
 #include <options/expression_help.h>
+#include <options/expression_options.h>
 #include <options/integral_options.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
@@ -141,7 +141,8 @@ std::vector<Option> rows(ConvergeCommandOptions& o) {
           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
       }};
-  return in_groups({common, plugin_group(o.integral), scene_group(o.scene), expert});
+  return in_groups(
+      {common, expression_group(o.integral.expression), plugin_group(o.integral), scene_group(o.scene), expert});
 }
 
 // The folder of the page, checked before any work; empty without --report.
@@ -193,7 +194,7 @@ int run_converge(const ConvergeCommandOptions& o) {
   const Interrupt interrupt;
   const std::vector<IntegralTarget> targets = targets_of(o.integral);
   const std::vector<SamplingMethod> chosen = methods_of(o);
-  if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
+  if (!o.integral.expression.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.expression);
   for (const SamplingMethod& w : chosen)
     for (const IntegralTarget& t : targets)
       mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions",

@@ -1,9 +1,12 @@
-#include <integrands/expression.h>
 #include <integrands/find.h>
-#include <integrands/variable_bounds.h>
+#include <integrate/derived.h>
+#include <integrate/histogram.h>
+#include <integrate/sweep.h>
 #include <options/expression_help.h>
+#include <options/expression_options.h>
 #include <options/subcommand.h>
 #include <report/integrate_output.h>
+#include <report/plot.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/result_file.h>
@@ -17,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <optional>
 
@@ -26,7 +30,9 @@ namespace {
 
 struct IntegrateCommandOptions {
   std::vector<std::string> integrands; ///< names, or expressions
-  std::string domain;                  ///< "x=0:1,y=-1:2" for an expression
+  ExpressionContext expression;        ///< domain and names of expressions
+  std::vector<std::string> names;      ///< of the integrands
+  std::vector<std::string> derived;    ///< functions of the integrals
   bool list = false;
   double rel_error = 1e-3, abs_error = 0;
   std::uint64_t max_calls = 10'000'000;
@@ -36,7 +42,7 @@ struct IntegrateCommandOptions {
   bool rounds = false;
   std::string histogram, quantiles;
   std::string save_density, load_density;
-  std::string json;
+  std::string json, output;
   std::string command;
 };
 
@@ -46,7 +52,9 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
        {
            {"INTEGRAND", "", &o.integrands,
             "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\". Several are evaluated at the same points."},
-           {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\"."},
+           domain_option(o.expression),
+           {"--name", "NAME", &o.names,
+            "Short name of an integrand for the output: once for each integrand, in their order."},
            {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach."},
            {"--abs-error", "ERROR", &o.abs_error,
             "Absolute standard error that also suffices, in units of the integral."},
@@ -55,12 +63,20 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            {"--list", "", &o.list, "List the named integrands, and stop."},
            {"--json", "FILE", &o.json, "Write the result and its rounds to this file; - is standard output."},
        }},
+      expression_group(o.expression),
       {"More results",
        {
+           {"--derive", "EXPR", &o.derived,
+            "Print a function of the integrals, e.g. \"A/B\" or \"A-B\", with the error that their covariance gives. A "
+            "and B are names of --name; without names the integrals are I1, I2, ... Can be given several times."},
+           {"-o,--output", "FOLDER", &o.output,
+            "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
            {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
            {"--histogram", "AXIS=BINS", &o.histogram,
-            "Print the shares of the integral along a variable (u0, u1, ... of a named integrand). value=BINS: the "
-            "shares of values by size, in powers of 2."},
+            "Print the shares of the integral along a variable (u0, u1, ... of a named integrand), each with its "
+            "error. "
+            "AXIS=LO:HI:BINS: by any expression of the variables, e.g. \"x+y=0:2:20\". value=BINS: by the sizes of "
+            "values, in powers of 2."},
            {"--quantiles", "LIST", &o.quantiles,
             "Print quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95. Takes as many calls again, at least "
             "98 k and at most 2^24 / (dimensions + 1)."},
@@ -84,81 +100,6 @@ double number(std::string_view word, const char* option) {
   return *value;
 }
 
-std::vector<VariableBounds> bounds_of(const IntegrateCommandOptions& o, int dim) {
-  if (!o.domain.empty()) return parse_bounds(o.domain);
-  std::vector<VariableBounds> bounds(static_cast<std::size_t>(dim));
-  for (std::size_t d = 0; d < bounds.size(); ++d) bounds[d] = {fmt::format("u{}", d), 0, 1};
-  return bounds;
-}
-
-// Bins, and the function that finds the bin of a point and its value.
-struct HistogramBins {
-  std::vector<HistogramBin> bins;
-  mc::BinFunction bin_of;
-};
-
-// Bins of equal length in u. On an infinite side their lengths in x grow outward.
-HistogramBins bins_along_variable(const std::vector<VariableBounds>& bounds, const std::string& variable,
-                                  std::size_t count) {
-  const auto side =
-      std::find_if(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == variable; });
-  mc::require(side != bounds.end(), "--histogram: there is no variable '{}'; use one of the domain's, or value",
-              variable);
-  const auto axis = static_cast<std::size_t>(side - bounds.begin());
-  const auto n = static_cast<double>(count);
-  HistogramBins all{{}, [=](std::span<const double> u, double) { return static_cast<std::size_t>(u[axis] * n); }};
-  for (std::size_t k = 0; k < count; ++k) {
-    const double lo = map_to_bounds(*side, static_cast<double>(k) / n).x,
-                 hi = map_to_bounds(*side, static_cast<double>(k + 1) / n).x;
-    all.bins.push_back({fmt::format("{} in [{:.4g}, {:.4g})", variable, lo, hi), lo, hi, {}});
-  }
-  return all;
-}
-
-// Bins by size: powers of 2 below the largest of 4096 values of the integrand times the volume of the domain.
-HistogramBins bins_by_value(const UnitCubeIntegral& e, double volume, std::size_t count, std::uint64_t seed) {
-  const double top_quantile[] = {1 - 1e-9};
-  const double largest = mc::quantiles([&](std::span<const double> u) { return std::abs(e.f(u)); }, e.dim, top_quantile,
-                                       {.calls = 4096, .seed = seed})
-                             .front()
-                             .value;
-  mc::require(largest > 0, "--histogram: the integrand was 0 at 4096 points; there is no size to start from");
-  const double top = std::ldexp(volume, std::ilogb(largest / volume));
-  HistogramBins all{{}, [=](std::span<const double>, double value) { return mc::octave_bin(top, value, count); }};
-  for (std::size_t k = 0; k < count; ++k) {
-    const double lo = k + 1 < count ? std::ldexp(top / volume, -static_cast<int>(k)) : 0.0;
-    const double hi =
-        k > 0 ? std::ldexp(top / volume, 1 - static_cast<int>(k)) : std::numeric_limits<double>::infinity();
-    all.bins.push_back({fmt::format("|value| in [{:.4g}, {:.4g})", lo, hi), lo, hi, {}});
-  }
-  return all;
-}
-
-// The factor between the values of UnitCubeIntegral::f and those of the expression.
-double volume_of(const std::vector<VariableBounds>& bounds, const char* option) {
-  double volume = 1;
-  for (const VariableBounds& s : bounds) {
-    mc::require(s.is_finite(), "{}: the domain is infinite along {}; values need a finite volume", option, s.name);
-    volume *= s.hi - s.lo;
-  }
-  return volume;
-}
-
-HistogramBins bins_of(const IntegrateCommandOptions& o, const UnitCubeIntegral& e) {
-  const std::size_t equals = o.histogram.find('=');
-  mc::require(equals != std::string::npos, "--histogram '{}' must be AXIS=BINS, e.g. x=20", o.histogram);
-  const std::string axis = o.histogram.substr(0, equals);
-  const double count = number(std::string_view(o.histogram).substr(equals + 1), "--histogram");
-  mc::require(count >= 2 && count <= 1000 && count == std::floor(count),
-              "--histogram: {} bins; a whole number between 2 and 1000 is needed", count);
-  const std::vector<VariableBounds> bounds = bounds_of(o, e.dim);
-  const bool a_variable =
-      std::any_of(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == axis; });
-  const auto bins = static_cast<std::size_t>(count);
-  return axis == "value" && !a_variable ? bins_by_value(e, volume_of(bounds, "--histogram"), bins, o.seed)
-                                        : bins_along_variable(bounds, axis, bins);
-}
-
 std::vector<double> probabilities(const std::string& list) {
   std::vector<double> all;
   if (!list.empty())
@@ -168,11 +109,11 @@ std::vector<double> probabilities(const std::string& list) {
 }
 
 // Takes the same number of calls as the integral. Returns false when interrupted.
-bool find_quantiles(IntegrateResults& found, const std::vector<double>& wanted, const IntegrateCommandOptions& o,
-                    const Interrupt& interrupt) try {
+bool find_quantiles(IntegrateResults& found, const IntegrandSet& set, const std::vector<double>& wanted,
+                    const IntegrateCommandOptions& o, const Interrupt& interrupt) try {
   if (wanted.empty()) return true;
-  const UnitCubeIntegral& e = found.integrands.front();
-  const double volume = volume_of(bounds_of(o, e.dim), "--quantiles");
+  const UnitCubeIntegral& e = set.integrands.front();
+  const double volume = measure_of(set, "--quantiles");
   const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 1)),
                       calls = found.results.outputs.front().calls;
   found.quantiles = mc::quantiles([&](std::span<const double> u) { return e.f(u) / volume; }, e.dim, wanted,
@@ -187,42 +128,131 @@ bool find_quantiles(IntegrateResults& found, const std::vector<double>& wanted, 
   return false;
 }
 
+// A constant, as a finite sum is: it has no error.
+mc::VectorIntegral exact(const mc::VectorIntegrand& f, std::size_t outputs) {
+  const std::vector<double> u = {0.5};
+  std::vector<double> values(outputs);
+  f(u, values);
+  mc::VectorIntegral r;
+  for (const double value : values) {
+    mc::require(std::isfinite(value), "the sum is {}; every term must be finite (see --where and --nan)", value);
+    mc::Integral sum{.estimate = {.value = value, .std_error = 0}, .interval = {value, value}};
+    sum.calls = 1;
+    r.outputs.push_back(sum);
+  }
+  r.correlations.assign(outputs * outputs, 0);
+  for (std::size_t i = 0; i < outputs; ++i) r.correlations[i * outputs + i] = 1;
+  return r;
+}
+
+// The integrands at one point of a sweep after those of another; one point if nothing is swept.
+using IntegrandSets = std::vector<IntegrandSet>;
+
+void evaluate(const IntegrandSet& set, std::span<const double> u, std::span<double> values) {
+  if (set.expression) return set.expression->evaluate(u, values);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = set.integrands[i].f(u);
+}
+
 // Integrates all integrands together, or one with its histogram.
-mc::VectorIntegral results_of(const std::vector<UnitCubeIntegral>& all, const HistogramBins& bins,
-                              const mc::IntegrateOptions& o) {
-  const UnitCubeIntegral& e = all.front();
-  if (!bins.bins.empty()) return mc::integrate_histogram(e.f, e.dim, bins.bins.size(), bins.bin_of, o);
-  if (all.size() == 1) return {{mc::integrate_unit(e.f, e.dim, o)}, {1}};
-  const mc::VectorIntegrand f = [&](std::span<const double> u, std::span<double> values) {
-    for (std::size_t i = 0; i < all.size(); ++i) values[i] = all[i].f(u);
+mc::VectorIntegral results_of(const IntegrandSets& sets, const Histogram& histogram, const mc::IntegrateOptions& o) {
+  const IntegrandSet& first = sets.front();
+  const std::size_t each = first.integrands.size();
+  mc::VectorIntegrand f = [&, each](std::span<const double> u, std::span<double> values) {
+    for (std::size_t p = 0; p < sets.size(); ++p) evaluate(sets[p], u, values.subspan(p * each, each));
   };
-  return mc::integrate_unit(f, static_cast<int>(all.size()), e.dim, o);
+  if (!histogram.bins.empty()) f = histogram.f;
+  const std::size_t outputs = histogram.bins.empty() ? each * sets.size() : 1 + histogram.bins.size();
+  if (first.expression && first.expression->is_exact_sum()) return exact(f, outputs);
+  if (!histogram.bins.empty()) return integrate(histogram, first.dim(), o);
+  if (outputs == 1) return {{mc::integrate_unit(first.integrands.front().f, first.dim(), o)}, {1}};
+  return mc::integrate_unit(f, static_cast<int>(outputs), first.dim(), o);
 }
 
 // The message about a point u where the integrand is not finite, in the integrand's own variables.
-std::string in_variables(const mc::NotFinite& e, const std::vector<UnitCubeIntegral>& all, const std::string& domain) {
-  if (!all.front().describe_point) return e.what();
-  const std::string message = mc::NotFinite(e.bad, e.points, e.u, all.front().describe_point(e.u)).what();
-  const auto bad =
-      std::find_if(all.begin(), all.end(), [&](const UnitCubeIntegral& x) { return !std::isfinite(x.f(e.u)); });
-  if (domain.empty() || bad == all.end() || !std::isnan(bad->f(e.u))) return message;
-  const std::vector<VariableBounds> bounds = parse_bounds(domain);
-  const bool finite = std::all_of(bounds.begin(), bounds.end(), [](const VariableBounds& s) { return s.is_finite(); });
-  return message + (finite ? "; it is nan there"
-                           : "; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound the domain");
+std::string in_variables(const mc::NotFinite& e, const IntegrandSets& sets) {
+  for (const IntegrandSet& set : sets)
+    for (const UnitCubeIntegral& x : set.integrands) {
+      const double value = x.describe_point ? x.f(e.u) : 0;
+      if (std::isfinite(value)) continue;
+      const std::string message = mc::NotFinite(e.bad, e.points, e.u, x.describe_point(e.u)).what();
+      if (!set.expression || !std::isnan(value)) return message;
+      return message + (set.expression->has_finite_bounds()
+                            ? "; it is nan there (see --nan)"
+                            : "; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound the domain");
+    }
+  return e.what();
 }
 
-std::vector<UnitCubeIntegral> integrands_of(const IntegrateCommandOptions& o) {
-  mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
-  std::vector<UnitCubeIntegral> all;
-  for (const std::string& text : o.integrands) {
-    all.push_back(find_integrand(text, o.domain));
-    mc::require(all.back().dim == all.front().dim, "integrate: '{}' has {} dimensions, '{}' {}; they must be the same",
-                all.back().name, all.back().dim, all.front().name, all.front().dim);
+// Refuses names that are no variable names, stand twice, or are fewer or more than the integrands.
+void require_names(const IntegrateCommandOptions& o) {
+  const std::vector<std::string>& names = o.names;
+  mc::require(names.empty() || names.size() == o.integrands.size(),
+              "--name is given {} times for {} integrands; give it once for each", names.size(), o.integrands.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    mc::with_context("--name", [&] { require_variable_name(names[i]); });
+    mc::require(std::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]) ==
+                    names.begin() + std::ptrdiff_t(i),
+                "--name '{}' is given twice", names[i]);
   }
-  mc::require(all.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
-              "integrate: --histogram and --quantiles are of one integrand; {} were given", all.size());
-  return all;
+}
+
+// Fills the points, integrands and names of `found`. Returns the integrands of each point.
+IntegrandSets integrands_of(const IntegrateCommandOptions& o, IntegrateResults& found) {
+  mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
+  mc::require(o.integrands.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
+              "integrate: --histogram and --quantiles are of one integrand; {} were given", o.integrands.size());
+  require_names(o);
+  const std::vector<SweepPoint> points = sweep_points(o.expression.settings);
+  mc::require(points.size() * o.integrands.size() <= 500, "--set: {} integrals; at most 500 are possible",
+              points.size() * o.integrands.size());
+  IntegrandSets sets;
+  found.points.clear();
+  found.names = o.names;
+  for (const SweepPoint& point : points) {
+    ExpressionContext context = o.expression;
+    context.settings = point.settings;
+    sets.push_back(find_integrands(o.integrands, context));
+    const auto is_exact = [](const IntegrandSet& set) { return set.expression && set.expression->is_exact_sum(); };
+    mc::require(sets.back().dim() == sets.front().dim() && is_exact(sets.back()) == is_exact(sets.front()),
+                "--set: the sums of one value are sampled, those of another are not; sweep within {} terms",
+                ExpressionIntegral::summed_terms);
+    found.points.push_back(point.swept);
+    for (std::size_t i = 0; i < o.integrands.size(); ++i) {
+      found.integrands.push_back(sets.back().integrands[i]);
+      if (!o.names.empty()) found.integrands.back().title = o.names[i];
+    }
+  }
+  mc::require(!found.is_sweep() || (o.histogram.empty() && o.quantiles.empty() && !o.rounds),
+              "integrate: --histogram, --quantiles and --rounds are of one integral, not of a sweep");
+  mc::require(found.is_sweep() || o.output.empty(),
+              "--output is for a sweep, as --set a=1:3:0.5; --json writes a single result");
+  return sets;
+}
+
+// Names of the integrals in --derive.
+std::vector<std::string> derived_names(const IntegrateCommandOptions& o) {
+  std::vector<std::string> names = o.names;
+  for (std::size_t i = names.size(); i < o.integrands.size(); ++i) names.push_back(fmt::format("I{}", i + 1));
+  return names;
+}
+
+void add_derived(IntegrateResults& found, const IntegrateCommandOptions& o) {
+  for (std::size_t p = 0; p < found.points.size(); ++p)
+    for (const std::string& expression : o.derived)
+      found.derived.push_back(
+          derived_value(expression, derived_names(o), found.results, p * found.integrands_per_point()));
+}
+
+// Writes the table of a sweep, and draws it.
+void write_sweep(const IntegrateResults& found, const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  mc::write_file((folder / "sweep.csv").string(), sweep_csv(found));
+  mc::write_file((folder / "sweep.gp").string(), sweep_script(found));
+  const auto known = [](const mc::Integral& r) { return std::isfinite(r.estimate.std_error); };
+  if (std::none_of(found.results.outputs.begin(), found.results.outputs.end(), known)) remove_plot(folder, "sweep");
+  else if (!draw_plot(folder, "sweep", {"sweep.csv"}))
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and script are written, but no plot\n");
+  fmt::print("data and plot: {}\n", folder.string());
 }
 
 mc::IntegrateOptions settings_of(const IntegrateCommandOptions& o) {
@@ -262,13 +292,17 @@ int run_integrate(const IntegrateCommandOptions& o) {
   mc::require(o.json.empty() || o.json != o.save_density,
               "--json and --save-density would both write '{}'; name another file", o.json);
   const ResultFile json(o.json);
-  IntegrateResults found{.integrands = integrands_of(o), .results = {}};
-  const UnitCubeIntegral& first = found.integrands.front();
+  IntegrateResults found{.integrands = {}, .results = {}};
+  const IntegrandSets sets = integrands_of(o, found);
+  const IntegrandSet& set = sets.front();
+  for (const std::string& expression : o.derived)
+    mc::with_context("--derive", [&] { parse_function(expression, derived_names(o)); });
+  const std::filesystem::path folder = o.output.empty() ? "" : mc::make_output_folder(o.output, "sweep.csv");
   const std::vector<double> wanted = probabilities(o.quantiles);
-  if (!wanted.empty()) volume_of(bounds_of(o, first.dim), "--quantiles");
+  if (!wanted.empty()) measure_of(set, "--quantiles");
   mc::IntegrateOptions settings = settings_of(o);
-  HistogramBins bins;
-  if (!o.histogram.empty()) bins = bins_of(o, first);
+  Histogram histogram;
+  if (!o.histogram.empty()) histogram = make_histogram(o.histogram, set, o.seed);
   ProgressLine progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
     progress.show(double(p.calls) / double(o.max_calls),
@@ -276,10 +310,12 @@ int run_integrate(const IntegrateCommandOptions& o) {
   };
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
+  for (const IntegrandSet& one : sets)
+    if (one.expression) one.expression->take_replaced();
   try {
-    found.results = results_of(found.integrands, bins, settings);
+    found.results = results_of(sets, histogram, settings);
   } catch (const mc::NotFinite& e) {
-    throw mc::Error(in_variables(e, found.integrands, o.domain));
+    throw mc::Error(in_variables(e, sets));
   } catch (const mc::Error&) {
     if (!*interrupt.flag()) throw;
     progress.clear();
@@ -287,17 +323,27 @@ int run_integrate(const IntegrateCommandOptions& o) {
     return exit_interrupted;
   }
   progress.clear();
+  for (const IntegrandSet& one : sets)
+    if (one.expression) found.replaced += one.expression->take_replaced();
+  found.replacement = o.expression.nan.value_or(0);
   for (std::size_t i = 0; i < found.integrands.size(); ++i)
     if (found.results.outputs[i].error_bar == mc::ErrorBar::all_zero) refuse_underflow(found.integrands[i]);
   const mc::Integral r = found.results.outputs.front();
-  for (std::size_t k = 0; k < bins.bins.size(); ++k) {
-    found.histogram.push_back(bins.bins[k]);
+  for (std::size_t k = 0; k < histogram.bins.size(); ++k) {
+    const bool is_outside = histogram.has_outside && (k == 0 || k + 1 == histogram.bins.size());
+    if (is_outside && found.results.outputs[1 + k].estimate.value == 0) continue;
+    found.histogram.push_back(histogram.bins[k]);
     found.histogram.back().integral = found.results.outputs[1 + k];
   }
-  const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, wanted, o, interrupt);
+  const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
 
-  fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found),
-             quantile_table(found));
+  add_derived(found, o);
+  if (found.is_sweep()) {
+    fmt::print("{}{}", sweep_table(found), calls_text(found));
+    write_sweep(found, folder);
+  } else
+    fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found),
+               quantile_table(found));
   if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
     mc::require(r.density != nullptr,

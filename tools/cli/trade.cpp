@@ -2,8 +2,8 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <converge/trade.h>
-#include <integrands/expression.h>
 #include <options/expression_help.h>
+#include <options/expression_options.h>
 #include <options/integral_options.h>
 #include <options/subcommand.h>
 #include <report/plot.h>
@@ -215,7 +215,7 @@ std::vector<Option> rows(TradeCommandOptions& o) {
           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
       }};
-  return in_groups({common, plugin_group(o.integral), scene, expert});
+  return in_groups({common, expression_group(o.integral.expression), plugin_group(o.integral), scene, expert});
 }
 
 /// The wanted errors and times.
@@ -343,7 +343,7 @@ int run_trade(const TradeCommandOptions& o) {
   const Interrupt interrupt;
   const std::vector<IntegralTarget> targets = targets_of(o.integral);
   mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
-  if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
+  if (!o.integral.expression.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.expression);
   const IntegralTarget& target = targets.front();
   const OutputFolders folders(o);
 

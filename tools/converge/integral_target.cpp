@@ -1,11 +1,10 @@
 #include <converge/integral_target.h>
-#include <integrands/expression.h>
-#include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
 #include <mc/random/hash.h>
 
+#include <algorithm>
 #include <ctime>
 #include <memory>
 
@@ -19,22 +18,20 @@ double thread_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// An expression parses without variables only if it uses none.
-bool is_constant(const std::string& expression) {
-  try {
-    parse_function(expression, {});
-  } catch (const mc::Error&) {
-    return false;
-  }
-  return true;
-}
-
 } // namespace
 
-void refuse_constant(const std::string& expression, const std::string& box) {
-  if (!is_constant(expression)) return;
+void refuse_constant(const std::string& expression, const ExpressionContext& context) {
+  std::vector<std::string> texts = {expression};
+  texts.insert(texts.end(), context.lets.begin(), context.lets.end());
+  texts.insert(texts.end(), context.conditions.begin(), context.conditions.end());
   std::vector<std::string> names;
-  for (const VariableBounds& s : parse_bounds(box)) names.push_back(s.name);
+  for (const VariableText& v : split_domain(context.domain)) {
+    names.push_back(v.name);
+    texts.insert(texts.end(), {v.first, v.second});
+  }
+  for (const std::string& text : texts)
+    for (const std::string& used : variables_of(text))
+      if (std::find(names.begin(), names.end(), used) != names.end()) return;
   throw mc::Error(fmt::format("'{}' uses none of {}: a constant has no error to measure; put a variable into it, or "
                               "see carlo integrate",
                               abbreviate(expression), fmt::join(names, ", ")));

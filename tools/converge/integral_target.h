@@ -1,6 +1,7 @@
 #pragma once
 /// Integrals to measure, and the functions that run their replicates.
 
+#include <integrands/expression_integral.h>
 #include <integrands/unit_cube_integral.h>
 #include <sampling/sampling_methods.h>
 
@@ -37,9 +38,9 @@ struct IntegralTarget {
 ///   throws : `run` throws the errors of `evaluate`.
 IntegralTarget in_process_target(UnitCubeIntegral integral);
 
-/// Throws Error for an expression that uses none of the variables of its box, as in "x=0:1,y=-1:2". Every method
-/// integrates a constant exactly, so there is nothing to compare.
-void refuse_constant(const std::string& expression, const std::string& box);
+/// Throws Error for an expression that uses no variable over a box with constant bounds. Every method integrates a
+/// constant exactly, so there is nothing to compare.
+void refuse_constant(const std::string& expression, const ExpressionContext& context);
 
 /// Throws Error for a scene file (.xml) among several words: only one scene is measured at a time.
 void refuse_scene_among(const std::vector<std::string>& words);

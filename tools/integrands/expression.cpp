@@ -2,7 +2,6 @@
 
 #include <integrands/expression.h>
 #include <integrands/special_functions.h>
-#include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
@@ -10,12 +9,11 @@
 #include <muParser.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <memory>
+#include <optional>
+#include <unordered_map>
 
 namespace carlo {
 
@@ -192,30 +190,26 @@ void refuse_chain(std::string_view expression) {
   }
 }
 
-// A parser with its variables. muParser evaluates in place, so each thread needs its own instance.
-struct Instance {
-  mu::Parser parser;
-  std::vector<double> values;
-
-  Instance(const std::string& expression, const std::vector<std::string>& names) : values(names.size()) {
-    refuse_assignment(expression);
-    refuse_chain(expression);
-    try {
-      define_words(parser);
-      define_special_functions(parser);
-      for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);
-      parser.SetExpr(expression);
-      parser.Eval();
-      mc::require(parser.GetNumResults() == 1,
-                  "expression '{}' has {} values; give one, or each as an argument of its own", abbreviate(expression),
-                  parser.GetNumResults());
-    } catch (const mu::Parser::exception_type& e) {
-      throw refusal(expression, e, names);
-    }
+// A parser of the expression over variables at these places. muParser evaluates in place, so each thread needs its own.
+std::unique_ptr<mu::Parser> make_parser(const std::string& expression, const std::vector<std::string>& names,
+                                        double* values) {
+  refuse_assignment(expression);
+  refuse_chain(expression);
+  try {
+    auto parser = std::make_unique<mu::Parser>();
+    define_words(*parser);
+    define_special_functions(*parser);
+    for (std::size_t i = 0; i < names.size(); ++i) parser->DefineVar(names[i], &values[i]);
+    parser->SetExpr(expression);
+    parser->Eval();
+    mc::require(parser->GetNumResults() == 1,
+                "expression '{}' has {} values; give one, or each as an argument of its own", abbreviate(expression),
+                parser->GetNumResults());
+    return parser;
+  } catch (const mu::Parser::exception_type& e) {
+    throw refusal(expression, e, names);
   }
-  Instance(const Instance&) = delete;
-  Instance& operator=(const Instance&) = delete;
-};
+}
 
 } // namespace
 
@@ -245,77 +239,102 @@ void require_variable_name(std::string_view name) {
   mc::require(!taken, "'{}' is no name of a variable: it means something in expressions; choose another", name);
 }
 
+std::vector<std::string> variables_of(std::string_view expression) {
+  std::vector<std::string> words;
+  for (const std::size_t start : word_starts(expression)) {
+    const std::string_view word = word_at(expression, start);
+    const bool is_name =
+        !is_called(expression, start) && word != "and" && word != "or" && word != "_pi" && word != "_e";
+    if (is_name && std::find(words.begin(), words.end(), word) == words.end()) words.emplace_back(word);
+  }
+  return words;
+}
+
+// The definition of a program.
+struct ExpressionProgram::Source {
+  struct Expression {
+    std::string text;
+    std::size_t names; ///< it uses the first names only
+  };
+  std::uint64_t id = 0; ///< changes with the program
+  std::vector<std::string> names;
+  std::vector<double> initial;
+  std::vector<Expression> expressions;
+
+  void renew() {
+    static std::atomic<std::uint64_t> ids = 0;
+    id = ++ids;
+  }
+};
+
+// The values of one thread, and the parsers that use them.
+struct ExpressionProgram::State {
+  std::vector<double> values;
+  std::vector<std::unique_ptr<mu::Parser>> parsers;
+
+  explicit State(const Source& source) : values(source.initial) {
+    for (const Source::Expression& e : source.expressions) {
+      const auto end = source.names.begin() + static_cast<std::ptrdiff_t>(e.names);
+      parsers.push_back(make_parser(e.text, {source.names.begin(), end}, values.data()));
+    }
+    values = source.initial; // the pointers stay valid
+  }
+};
+
+ExpressionProgram::ExpressionProgram() : source_(std::make_shared<Source>()) { source_->renew(); }
+
+std::size_t ExpressionProgram::add_value(const std::string& name, double initial) {
+  source_->renew();
+  source_->names.push_back(name);
+  source_->initial.push_back(initial);
+  return source_->names.size() - 1;
+}
+
+std::size_t ExpressionProgram::add_expression(const std::string& text) {
+  std::vector<double> values(source_->initial);
+  make_parser(text, source_->names, values.data());
+  source_->renew();
+  source_->expressions.push_back({text, source_->names.size()});
+  return source_->expressions.size() - 1;
+}
+
+ExpressionProgram::Frame ExpressionProgram::frame() const {
+  struct Cached {
+    std::weak_ptr<const Source> owner;
+    State state;
+  };
+  thread_local std::unordered_map<std::uint64_t, Cached> states;
+  thread_local std::uint64_t last_id = 0; // of the last call, which mostly was of the same program
+  thread_local State* last = nullptr;
+  if (last_id == source_->id) return Frame(*last);
+  auto found = states.find(source_->id);
+  if (found == states.end()) {
+    std::erase_if(states, [](const auto& entry) { return entry.second.owner.expired(); });
+    found = states.emplace(source_->id, Cached{source_, State(*source_)}).first;
+  }
+  last_id = source_->id;
+  last = &found->second.state;
+  return Frame(*last);
+}
+
+double& ExpressionProgram::Frame::operator[](std::size_t value) const { return state_->values[value]; }
+double ExpressionProgram::Frame::evaluate(std::size_t expression) const { return state_->parsers[expression]->Eval(); }
+
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables) {
-  const Instance checked(expression, variables);
-  static std::atomic<std::uint64_t> ids = 0;
-  const std::uint64_t id = ++ids;
-  return [=](std::span<const double> x) {
-    // A small cache, since several expressions may be evaluated in turn.
-    thread_local std::array<std::uint64_t, 16> owners{};
-    thread_local std::array<std::unique_ptr<Instance>, 16> instances;
-    const std::size_t place = id % owners.size();
-    std::unique_ptr<Instance>& mine = instances[place];
-    if (owners[place] != id) {
-      mine = std::make_unique<Instance>(expression, variables);
-      owners[place] = id;
-    }
-    std::copy(x.begin(), x.end(), mine->values.begin());
-    return mine->parser.Eval();
+  ExpressionProgram program;
+  for (const std::string& name : variables) program.add_value(name);
+  program.add_expression(expression);
+  return [program](std::span<const double> x) {
+    const ExpressionProgram::Frame frame = program.frame();
+    for (std::size_t i = 0; i < x.size(); ++i) frame[i] = x[i];
+    return frame.evaluate(0);
   };
 }
 
-UnitCubeIntegral parse_expression(const std::string& expression, const std::string& box) {
-  mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"",
-              abbreviate(expression));
-  const std::vector<VariableBounds> bounds = parse_bounds(box);
-  mc::require(bounds.size() <= 32, "--domain: {} variables; at most 32 are possible", bounds.size());
-  std::vector<std::string> names;
-  long double product = 1; // long double: sides may be large and small in any order
-  for (const VariableBounds& s : bounds) {
-    names.push_back(s.name);
-    if (s.is_finite()) product *= s.hi - s.lo;
-  }
-  const double volume = static_cast<double>(product);
-  mc::require(std::isfinite(volume), "--domain: the volume of '{}' overflows", box);
-  mc::require(volume >= std::numeric_limits<double>::min(), "--domain: the volume of '{}' is too small for a double",
-              box);
-
-  UnitCubeIntegral e;
-  e.name = expression;
-  e.title = expression;
-  e.source = box;
-  e.dim = static_cast<int>(bounds.size());
-  e.truth = std::numeric_limits<double>::quiet_NaN();
-  e.min_fit_n = 0;
-  const auto factors = [bounds, volume, f = parse_function(expression, names)](std::span<const double> u) {
-    std::array<double, 32> x;
-    double scale = volume;
-    for (std::size_t i = 0; i < bounds.size(); ++i) {
-      const MappedPoint at = map_to_bounds(bounds[i], u[i]);
-      x[i] = at.x;
-      if (bounds[i].is_finite()) continue;
-      if (std::isinf(at.x)) return std::pair(0.0, 0.0); // an end at infinity is no point of the domain
-      scale *= at.slope;
-    }
-    return std::pair(scale, f(std::span(x).first(bounds.size())));
-  };
-  e.f = [factors](std::span<const double> u) {
-    const auto [scale, value] = factors(u);
-    return scale * value;
-  };
-  e.underflows_at = [factors](std::span<const double> u) {
-    const auto [scale, value] = factors(u);
-    // A value that is itself nearly 0 belongs to the far tail of a peak and is no underflow of the product.
-    return scale * value == 0 && std::abs(value) >= std::numeric_limits<double>::min();
-  };
-  e.describe_point = [bounds](std::span<const double> u) {
-    std::string text;
-    for (std::size_t i = 0; i < bounds.size(); ++i)
-      text += fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", bounds[i].name, map_to_bounds(bounds[i], u[i]).x);
-    return text;
-  };
-  return e;
+double parse_number(const std::string& text) {
+  const std::optional<double> number = mc::parse_double(text);
+  return number ? *number : parse_function(text, {})({});
 }
 
 } // namespace carlo

@@ -1,9 +1,12 @@
 #pragma once
-/// Integrands from the command line.
+/// Expressions of the command line.
 
-#include <integrands/unit_cube_integral.h>
-
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace carlo {
 
@@ -21,11 +24,42 @@ void require_variable_name(std::string_view name);
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables);
 
-/// The integral of an expression such as "exp(-x*x)*cos(y)" over the box "x=0:1,y=-1:2", as an integral over the unit
-/// cube. Bounds may be infinite. See parse_function and map_to_bounds.
-///   truth  : NaN, since it is unknown.
-///   throws : mc::Error for an expression that does not parse, with the position; for a variable without bounds or with
-///            two; for bounds that are not numbers with lo < hi.
-UnitCubeIntegral parse_expression(const std::string& expression, const std::string& box);
+/// The value of a number or a constant expression. Throws mc::Error as parse_function.
+double parse_number(const std::string& text);
+
+/// The names in an expression that stand for values, each once: all words but functions, operators and constants. The
+/// expression need not parse.
+std::vector<std::string> variables_of(std::string_view expression);
+
+/// Expressions over named values, which are evaluated one at a time. An expression may use the values that were added
+/// before it. Each thread has its own values.
+class ExpressionProgram {
+  struct Source;
+  struct State;
+
+ public:
+  ExpressionProgram();
+
+  /// Adds a value with the content that each thread starts from. Returns its index.
+  std::size_t add_value(const std::string& name, double initial = 0);
+  /// Adds an expression; see parse_function. Returns its index.
+  ///   throws : mc::Error for an expression that does not parse.
+  std::size_t add_expression(const std::string& text);
+
+  /// The values of the calling thread. Valid until the program changes.
+  class Frame {
+   public:
+    explicit Frame(State& state) : state_(&state) {}
+    double& operator[](std::size_t value) const;
+    double evaluate(std::size_t expression) const;
+
+   private:
+    State* state_;
+  };
+  Frame frame() const;
+
+ private:
+  std::shared_ptr<Source> source_;
+};
 
 } // namespace carlo

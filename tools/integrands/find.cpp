@@ -1,4 +1,3 @@
-#include <integrands/expression.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
@@ -18,18 +17,58 @@ std::vector<const UnitCubeIntegral*> named_integrands() {
   return all;
 }
 
-UnitCubeIntegral find_integrand(const std::string& text, const std::string& bounds) {
-  if (!bounds.empty()) return parse_expression(text, bounds);
+namespace {
+
+// Bounds that follow those of --domain after a blank are an argument of their own.
+void refuse_bounds(const std::string& text, const std::string& domain) {
+  if (!is_domain(text)) return;
+  throw mc::Error(fmt::format("'{0}' is a bound and not an integrand; --domain takes all bounds as one argument: "
+                              "--domain \"{1}{0}\"",
+                              abbreviate(text), domain.empty() ? "" : domain + ","));
+}
+
+} // namespace
+
+UnitCubeIntegral find_integrand(const std::string& text, const ExpressionContext& context) {
+  refuse_bounds(text, context.domain);
+  if (!context.domain.empty()) return parse_expression(text, context);
   std::vector<std::string_view> names;
   for (const UnitCubeIntegral* e : named_integrands()) {
-    if (e->name == text) return *e;
+    if (e->name == text) {
+      mc::require(context == ExpressionContext(),
+                  "'{}' has a domain of its own; --where, --let, --set and --nan are "
+                  "for an expression with --domain",
+                  text);
+      return *e;
+    }
     names.push_back(e->name);
   }
   const bool a_name =
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-  if (!a_name) return parse_expression(text, bounds);
+  if (!a_name) return parse_expression(text, context);
   throw mc::Error(fmt::format("unknown integrand '{}'{}; --list shows them all; for an expression give --domain",
                               abbreviate(text), mc::did_you_mean(text, names)));
+}
+
+IntegrandSet find_integrands(const std::vector<std::string>& texts, const ExpressionContext& context) {
+  for (const std::string& text : texts) refuse_bounds(text, context.domain);
+  IntegrandSet set;
+  if (!context.domain.empty()) {
+    set.expression = std::make_shared<ExpressionIntegral>(context, texts);
+    set.integrands = integrands_of(set.expression, texts, context.domain);
+    return set;
+  }
+  for (const std::string& text : texts) {
+    set.integrands.push_back(find_integrand(text, context));
+    mc::require(set.integrands.back().dim == set.dim(),
+                "integrate: '{}' has {} dimensions, '{}' {}; they must be the same", text, set.integrands.back().dim,
+                set.integrands.front().name, set.dim());
+  }
+  return set;
+}
+
+double measure_of(const IntegrandSet& set, std::string_view option) {
+  return set.expression ? set.expression->uniform_measure(option) : 1;
 }
 
 } // namespace carlo

@@ -1,6 +1,7 @@
 #pragma once
 /// Finds integrands by name or by expression.
 
+#include <integrands/expression_integral.h>
 #include <integrands/unit_cube_integral.h>
 
 namespace carlo {
@@ -8,8 +9,24 @@ namespace carlo {
 /// All integrands with a name: textbook, Genz and rate integrals.
 std::vector<const UnitCubeIntegral*> named_integrands();
 
-/// The integrand with this name. With bounds "x=0:1,y=-1:2", or if the text is not a name, it is an expression.
-///   throws : Error for an unknown name, with the nearest one, and for an invalid expression or invalid bounds.
-UnitCubeIntegral find_integrand(const std::string& text, const std::string& bounds);
+/// The integrand with this name. With a domain, or if the text is not a name, it is an expression.
+///   throws : Error for an unknown name, with the nearest one, for bounds instead of an integrand, and for an invalid
+///            expression or invalid bounds.
+UnitCubeIntegral find_integrand(const std::string& text, const ExpressionContext& context);
+
+/// Several integrands over one domain. `expression` is null if they have names.
+struct IntegrandSet {
+  std::vector<UnitCubeIntegral> integrands;
+  std::shared_ptr<ExpressionIntegral> expression = {};
+
+  int dim() const { return integrands.front().dim; }
+};
+
+/// All expressions over the domain of the context; without one the integrands with these names.
+///   throws : Error as find_integrand, and for names with different dimensions.
+IntegrandSet find_integrands(const std::vector<std::string>& texts, const ExpressionContext& context);
+
+/// The measure of the domain; 1 for named integrands. Throws Error as ExpressionIntegral::uniform_measure.
+double measure_of(const IntegrandSet& set, std::string_view option);
 
 } // namespace carlo

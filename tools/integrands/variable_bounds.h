@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carlo {
@@ -15,9 +16,34 @@ struct VariableBounds {
   bool is_finite() const { return std::isfinite(lo) && std::isfinite(hi); }
 };
 
+/// A variable as a domain describes it.
+struct VariableText {
+  enum class Kind {
+    interval, ///< "x=0:1": a real number between two bounds
+    normal,   ///< "z=normal" or "z=normal(0, 1)": a normal variable with a mean and a standard deviation
+    integers  ///< "k=1..6": the whole numbers between two bounds
+  };
+  std::string text; ///< the whole
+  std::string name;
+  Kind kind;
+  std::string first, second; ///< expressions of the bounds, or of mean and standard deviation
+};
+
+/// Splits "x=0:1,y=0:sqrt(x),k=1..6,z=normal" at the commas outside parentheses. Does not parse the expressions.
+///   throws : Error that names --domain for text of another form, and for a name that is invalid or stands twice.
+std::vector<VariableText> split_domain(std::string_view domain);
+
+/// Whether the text has the form of a domain, as "y=0:1".
+bool is_domain(std::string_view text);
+
 /// Parses "x=0:1,y=-1:2,z=0:inf". A bound may be a constant expression, as in "phi=-_pi:2*_pi"; see parse_function.
 ///   throws : Error that names --domain for anything else.
 std::vector<VariableBounds> parse_bounds(const std::string& box);
+
+/// The value of a number, inf, -inf or an expression over these names and values.
+///   throws : Error that quotes the text, with the whole that contains it.
+double parse_bound(const std::string& text, std::string_view whole, const std::vector<std::string>& names = {},
+                   const std::vector<double>& values = {});
 
 /// The image of u in [0,1] within the bounds: x, which increases with u, and dx/du.
 ///   finite   : x = lo (1 - u) + hi u.
@@ -26,12 +52,19 @@ std::vector<VariableBounds> parse_bounds(const std::string& box);
 struct MappedPoint {
   double x, slope;
 };
-inline MappedPoint map_to_bounds(const VariableBounds& s, double u) {
-  if (s.is_finite()) return {s.lo * (1 - u) + s.hi * u, s.hi - s.lo};
-  if (std::isfinite(s.lo)) return {s.lo + u / (1 - u), 1 / ((1 - u) * (1 - u))};
-  if (std::isfinite(s.hi)) return {s.hi - (1 - u) / u, 1 / (u * u)};
+inline MappedPoint map_to_bounds(double lo, double hi, double u) {
+  if (std::isfinite(lo) && std::isfinite(hi)) return {lo * (1 - u) + hi * u, hi - lo};
+  if (std::isfinite(lo)) return {lo + u / (1 - u), 1 / ((1 - u) * (1 - u))};
+  if (std::isfinite(hi)) return {hi - (1 - u) / u, 1 / (u * u)};
   const double t = 2 * u - 1, rest = 4 * u * (1 - u); // 1 - t^2
   return {t / rest, 2 * (1 + t * t) / (rest * rest)};
 }
+inline MappedPoint map_to_bounds(const VariableBounds& s, double u) { return map_to_bounds(s.lo, s.hi, u); }
+
+/// The image of u in [0,1) among the whole numbers between lo and hi, and the inverse of its probability.
+///   finite   : equal probabilities.
+///   lo..inf  : lo + j with probability 1 / ((j + 1) (j + 2)); -inf..hi is mirrored.
+///   -inf..inf: j and -1 - j with half of that probability each.
+MappedPoint map_to_integers(double lo, double hi, double u);
 
 } // namespace carlo

@@ -1,6 +1,7 @@
 #include <integrands/find.h>
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
+#include <options/expression_options.h>
 #include <options/integral_options.h>
 #include <options/pixels.h>
 #include <picture/picture.h>
@@ -93,7 +94,7 @@ std::vector<Option> integral_option_rows(IntegralOptions& o) {
       {"INTEGRAND", "", &o.integrands,
        "Names (see --list), groups (books, genz, rates), an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file "
        "(.xml). Default: books."},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\"."},
+      domain_option(o.expression),
       {"--max-n", "N", &o.max_n, "Largest number of evaluations of an integrand."},
       {"--list", "", &o.list, "List the integrands and the methods, and stop."},
   };
@@ -118,18 +119,21 @@ std::vector<IntegralTarget> targets_of(const IntegralOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   ResourceLimits limits = resource_limits(o.timeout, o.memory, !o.plugin.empty());
   if (!o.plugin.empty()) {
-    mc::require(o.domain.empty(), "--domain is for an expression; a plugin states its own bounds");
+    mc::require(o.expression.domain.empty(), "--domain is for an expression; a plugin states its own bounds");
     limits.reduce_option = "--max-n";
     return plugin_targets(o.plugin, o.integrands, {.limits = limits});
   }
-  mc::require(o.domain.empty() || o.integrands.size() == 1, "--domain belongs to one expression");
+  if (!o.expression.domain.empty())
+    for (const std::string& word : o.integrands)
+      if (is_domain(word)) find_integrand(word, o.expression); // throws: bounds are one argument
+  mc::require(o.expression.domain.empty() || o.integrands.size() == 1, "--domain belongs to one expression");
   std::vector<IntegralTarget> targets;
   const std::vector<std::string> words = o.integrands.empty() ? std::vector<std::string>{"books"} : o.integrands;
   for (const std::string& word : words) {
     const IntegrandGroup* group = nullptr;
     for (const IntegrandGroup& g : groups)
       if (word == g.name) group = &g;
-    if (!group) targets.push_back(in_process_target(find_integrand(word, o.domain)));
+    if (!group) targets.push_back(in_process_target(find_integrand(word, o.expression)));
     else
       for (const UnitCubeIntegral& e : group->list()) targets.push_back(in_process_target(e));
   }

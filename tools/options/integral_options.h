@@ -2,6 +2,7 @@
 /// Options shared by the subcommands that measure integrals and scenes.
 
 #include <converge/picture_measurement.h>
+#include <integrands/expression_integral.h>
 #include <options/subcommand.h>
 
 #include <optional>
@@ -12,7 +13,7 @@ namespace carlo {
 
 struct IntegralOptions {
   std::vector<std::string> integrands; ///< names, groups, or an expression
-  std::string domain;                  ///< bounds of the variables of an expression
+  ExpressionContext expression;        ///< domain and names of an expression
   std::string plugin;                  ///< shared object to load integrands from instead
   std::optional<double> timeout;       ///< seconds for the plugin's process, see ResourceLimits
   std::optional<double> memory;        ///< GiB for the plugin's process

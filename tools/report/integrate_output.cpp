@@ -46,6 +46,26 @@ std::string correlation_table(const mc::VectorIntegral& r) {
   return text;
 }
 
+nlohmann::json as_json(const DerivedValue& d) {
+  return {{"expression", d.expression}, {"value", d.value},    {"std_error", d.std_error},
+          {"lo", d.interval.lo},        {"hi", d.interval.hi}, {"error_bar", name(d.error_bar)},
+          {"linear", d.is_linear}};
+}
+
+nlohmann::json as_json(const SweptValues& values) {
+  nlohmann::json j = nlohmann::json::object();
+  for (const auto& [name, value] : values) j[name] = value;
+  return j;
+}
+
+std::string derived_text(const DerivedValue& d) {
+  if (d.error_bar != mc::ErrorBar::known)
+    return fmt::format("{} = {:.10g}, error not known, as that of an integral in it\n", d.expression, d.value);
+  return fmt::format("{} = {:.10g} ± {:.2g} (standard error, from the covariance), 95 % in [{:.10g}, {:.10g}]{}\n",
+                     d.expression, d.value, d.std_error, d.interval.lo, d.interval.hi,
+                     d.is_linear ? "" : "; it bends within the errors of the integrals: lower --rel-error");
+}
+
 nlohmann::json as_json(const mc::Integral& r, const UnitCubeIntegral& e) {
   nlohmann::json j = {{"integrand", e.name},
                       {"value", r.estimate.value},
@@ -76,18 +96,26 @@ std::string_view why_stopped(const mc::Integral& r) {
 
 } // namespace
 
+std::string calls_text(const IntegrateResults& found) {
+  const mc::Integral& first = found.results.outputs.front();
+  std::string text;
+  if (found.replaced > 0)
+    text = fmt::format("{} values were not a number and count as {} (--nan)\n", found.replaced, found.replacement);
+  return text + fmt::format("{} calls in {} by {}; stopped: {}\n", format_count(double(first.calls)),
+                            format_seconds(first.seconds), name(first.method), why_stopped(first));
+}
+
 std::string integrate_summary(const IntegrateResults& found) {
   std::string text;
   for (std::size_t i = 0; i < found.integrands.size(); ++i) {
     const mc::Integral& r = found.results.outputs[i];
     text += fmt::format("{} = {}{}\n", found.integrands[i].title, r.to_string(), remedy(r.error_bar));
   }
-  const mc::Integral& first = found.results.outputs.front();
-  text += fmt::format("{} calls in {} by {}; stopped: {}\n", format_count(double(first.calls)),
-                      format_seconds(first.seconds), name(first.method), why_stopped(first));
+  text += calls_text(found);
   for (std::size_t i = 0; i < found.integrands.size(); ++i)
     text += about_truth(found.integrands[i], found.results.outputs[i]);
   if (found.integrands.size() > 1) text += correlation_table(found.results);
+  for (const DerivedValue& d : found.derived) text += derived_text(d);
   return text;
 }
 
@@ -133,16 +161,24 @@ std::string quantile_table(const IntegrateResults& found) {
 std::string integrals_json(const IntegrateResults& found, const std::string& command, std::uint64_t seed) {
   const mc::Integral& first = found.results.outputs.front();
   const std::size_t n = found.integrands.size();
-  nlohmann::json j = n == 1 ? as_json(first, found.integrands.front()) : nlohmann::json::object();
+  const auto output_json = [&](std::size_t i) {
+    nlohmann::json j = as_json(found.results.outputs[i], found.integrands[i]);
+    if (!found.names.empty()) j["name"] = found.names[i % found.names.size()];
+    if (found.is_sweep()) j["set"] = as_json(found.points[i / found.integrands_per_point()]);
+    return j;
+  };
+  // The keys of a single integral also stand at the top, as they did before there were several.
+  nlohmann::json j = n == 1 ? output_json(0) : nlohmann::json::object();
   j.update({{"command", command},
             {"commit", commit},
             {"seed", seed},
             {"calls", first.calls},
             {"seconds", first.seconds},
             {"method", name(first.method)},
-            {"stop", why_stopped(first)}});
-  for (std::size_t i = 0; n > 1 && i < n; ++i) {
-    j["outputs"].push_back(as_json(found.results.outputs[i], found.integrands[i]));
+            {"stop", why_stopped(first)},
+            {"replaced", found.replaced}});
+  for (std::size_t i = 0; i < n; ++i) {
+    j["outputs"].push_back(output_json(i));
     nlohmann::json correlations, covariances;
     for (std::size_t k = 0; k < n; ++k) {
       correlations.push_back(found.results.correlation(i, k));
@@ -150,6 +186,11 @@ std::string integrals_json(const IntegrateResults& found, const std::string& com
     }
     j["correlation"].push_back(correlations);
     j["covariance"].push_back(covariances);
+  }
+  for (std::size_t i = 0; i < found.derived.size(); ++i) {
+    j["derived"].push_back(as_json(found.derived[i]));
+    if (found.is_sweep())
+      j["derived"].back()["set"] = as_json(found.points[i / (found.derived.size() / found.points.size())]);
   }
   for (const HistogramBin& b : found.histogram)
     j["histogram"].push_back({{"bin", b.name},

@@ -7,6 +7,7 @@
 #include <mc/estimate/values/quantiles.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carlo {
@@ -18,17 +19,41 @@ struct HistogramBin {
   mc::Integral integral;
 };
 
-/// All results of a run.
+/// A function of integrals, such as their ratio.
+struct DerivedValue {
+  std::string expression;
+  double value;
+  double std_error; ///< infinite unless error_bar is known
+  mc::Estimate::Interval interval;
+  mc::ErrorBar error_bar = mc::ErrorBar::known;
+  bool is_linear = true; ///< whether the function is nearly linear within the errors, as its error assumes
+};
+
+/// The values of the swept parameters, by name.
+using SweptValues = std::vector<std::pair<std::string, double>>;
+
+/// All results of a run. Integrands, results and derived values of the first point of a sweep come before those of the
+/// next.
 struct IntegrateResults {
   std::vector<UnitCubeIntegral> integrands;
   mc::VectorIntegral results;
+  std::vector<SweptValues> points = {SweptValues()}; ///< one without values if nothing is swept
+  std::vector<DerivedValue> derived = {};
+  std::vector<std::string> names = {}; ///< short names of the integrands of a point; may be empty
   std::vector<HistogramBin> histogram = {};
   std::vector<mc::Quantile> quantiles = {};
+  std::uint64_t replaced = 0; ///< how many values were not a number, see ExpressionContext::nan
+  double replacement = 0;     ///< taken instead
+
+  bool is_sweep() const { return !points.front().empty(); }
+  std::size_t integrands_per_point() const { return integrands.size() / points.size(); }
 };
 
 /// Returns "1.3075 ± ...", or a remedy if there is no error bar; then calls and time, the true value if available, and
-/// the correlations of the errors of several integrands.
+/// the correlations of the errors of several integrands, and the derived values.
 std::string integrate_summary(const IntegrateResults& found);
+/// Returns how many calls there were, the time, the method and the reason to stop, and the number of replaced values.
+std::string calls_text(const IntegrateResults& found);
 /// Returns a table with one row per round, for the first integrand.
 std::string round_table(const mc::Integral& r);
 /// Returns a table with one row per bin and its share of the integral, or one row per quantile.

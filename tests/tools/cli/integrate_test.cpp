@@ -1,4 +1,4 @@
-#include <integrands/expression.h>
+#include <integrands/expression_integral.h>
 #include <integrands/genz.h>
 #include <tools/interrupt_carlo.h>
 
@@ -14,7 +14,7 @@
 namespace {
 
 TEST(Expression, IntegratesOverTheBox) {
-  const carlo::UnitCubeIntegral e = carlo::parse_expression("exp(-x*x)*cos(y)", "x=0:1,y=-1:2");
+  const carlo::UnitCubeIntegral e = carlo::parse_expression("exp(-x*x)*cos(y)", {.domain = "x=0:1,y=-1:2"});
   mc::IntegrateOptions o;
   o.rel_error = 1e-6;
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
@@ -36,7 +36,7 @@ TEST(Expression, BoundsMayBeInfinite) {
                {"exp(-(x-100)^2/2e6)", "x=-inf:inf", std::sqrt(2e6 * pi)},
                {"exp(-abs(x)-y*y-z*z)", "x=-inf:inf,y=-inf:inf,z=-inf:inf", 2 * pi}};
   for (const auto& c : cases) {
-    const carlo::UnitCubeIntegral e = carlo::parse_expression(c.expression, c.box);
+    const carlo::UnitCubeIntegral e = carlo::parse_expression(c.expression, {.domain = c.box});
     mc::IntegrateOptions o;
     o.rel_error = 1e-4;
     const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
@@ -44,15 +44,15 @@ TEST(Expression, BoundsMayBeInfinite) {
     EXPECT_LE(std::abs(r.estimate.value - c.truth), 5 * r.estimate.std_error) << c.expression << " over " << c.box;
   }
   // The integrand is constant over the unit cube; the run must not end early on such a coincidence.
-  const carlo::UnitCubeIntegral same = carlo::parse_expression("x^-2", "x=1:inf");
+  const carlo::UnitCubeIntegral same = carlo::parse_expression("x^-2", {.domain = "x=1:inf"});
   mc::IntegrateOptions few;
   few.max_calls = 10'000;
   const mc::Integral r = mc::integrate_unit(same.f, same.dim, few);
   EXPECT_EQ(r.stop, mc::StopReason::max_calls);
   EXPECT_NEAR(r.estimate.value, 1, 1e-12);
   const double zero[] = {0};
-  EXPECT_EQ(carlo::parse_expression("exp(-x*x)", "x=-inf:inf").f(zero), 0);
-  EXPECT_EQ(carlo::parse_expression("x", "x=-inf:0").describe_point(std::vector{0.5}), "x = -1");
+  EXPECT_EQ(carlo::parse_expression("exp(-x*x)", {.domain = "x=-inf:inf"}).f(zero), 0);
+  EXPECT_EQ(carlo::parse_expression("x", {.domain = "x=-inf:0"}).describe_point(std::vector{0.5}), "x = -1");
 }
 
 TEST(Expression, SupportsAndOrNotIf) {
@@ -143,7 +143,8 @@ TEST(Expression, FloorRoundsDown) {
 }
 
 TEST(Expression, ConcurrentEvaluationIsIndependent) {
-  const carlo::UnitCubeIntegral a = carlo::parse_expression("x", "x=0:2"), b = carlo::parse_expression("_pi", "x=0:1");
+  const carlo::UnitCubeIntegral a = carlo::parse_expression("x", {.domain = "x=0:2"}),
+                                b = carlo::parse_expression("_pi", {.domain = "x=0:1"});
   const double u[] = {0.25};
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(a.f(u), 1.0);
@@ -154,7 +155,7 @@ TEST(Expression, ConcurrentEvaluationIsIndependent) {
 TEST(Expression, BadInput_IsReportedInOneLine) {
   const auto message = [](const char* expression, const char* box) -> std::string {
     try {
-      carlo::parse_expression(expression, box);
+      carlo::parse_expression(expression, {.domain = box});
     } catch (const mc::Error& e) {
       return e.what();
     }
@@ -285,7 +286,7 @@ TEST(Integrate, NonFiniteValue_ReportsTheVariables) {
                                                "the domain\n")));
   EXPECT_THAT(says("1 'sqrt(x-y)' -d x=0:1,y=2:3"),
               testing::AllOf(testing::ContainsRegex("the first at x = 0[.][0-9]+, y = 2[.][0-9]+; it must be finite"),
-                             testing::EndsWith("; it is nan there\n")));
+                             testing::EndsWith("; it is nan there (see --nan)\n")));
   EXPECT_THAT(says("1/0 -d x=2:3"),
               testing::AllOf(testing::HasSubstr("the first at x = 2."), testing::EndsWith("almost everywhere\n")));
 }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 
 namespace {
 
@@ -30,6 +31,44 @@ TEST(VariableBounds, AcceptBlanks) {
   EXPECT_EQ(bounds[0].hi, 1);
   EXPECT_EQ(bounds[1].name, "y");
   EXPECT_EQ(bounds[1].lo, -HUGE_VAL);
+}
+
+TEST(VariableBounds, SplitDomainReadsEveryKind) {
+  using Kind = carlo::VariableText::Kind;
+  const std::vector<carlo::VariableText> v =
+      carlo::split_domain("x=0:max(1, 2), y = if(x<1,x,2) : inf ,z=normal, w=normal( x, max(1,y) ),k=1 .. n");
+  ASSERT_EQ(v.size(), 5u);
+  const Kind kinds[] = {Kind::interval, Kind::interval, Kind::normal, Kind::normal, Kind::integers};
+  const char* parts[][3] = {
+      {"x", "0", "max(1, 2)"}, {"y", "if(x<1,x,2)", "inf"}, {"z", "0", "1"}, {"w", "x", "max(1,y)"}, {"k", "1", "n"}};
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    EXPECT_EQ(v[i].kind, kinds[i]);
+    EXPECT_EQ((std::vector{v[i].name, v[i].first, v[i].second}),
+              (std::vector<std::string>{parts[i][0], parts[i][1], parts[i][2]}));
+  }
+  EXPECT_TRUE(carlo::is_domain("y=0:1"));
+  for (const char* text : {"y", "y==0", "x*y", "", "y<1?0:1"}) EXPECT_FALSE(carlo::is_domain(text)) << text;
+}
+
+// The weights are inverse probabilities: each integer gets its share of the cube.
+TEST(VariableBounds, IntegersHaveTheirProbabilities) {
+  const double inf = HUGE_VAL;
+  const std::pair<double, double> ranges[] = {{-2, 3}, {1, inf}, {-inf, -1}, {-inf, inf}};
+  for (const auto& [lo, hi] : ranges) {
+    constexpr int n = 1 << 20;
+    std::map<double, std::pair<int, double>> counts;
+    for (int i = 0; i < n; ++i) {
+      const carlo::MappedPoint at = carlo::map_to_integers(lo, hi, (i + 0.5) / n);
+      EXPECT_TRUE(at.x >= lo && at.x <= hi && at.x == std::floor(at.x));
+      ++counts[at.x].first;
+      counts[at.x].second = at.slope;
+    }
+    for (const auto& [k, count] : counts)
+      if (std::abs(k) < 50) {
+        EXPECT_NEAR(count.first / double(n), 1 / count.second, 2.0 / n) << k;
+      }
+    EXPECT_GE(counts.size(), 6u);
+  }
 }
 
 std::string message(const std::string& box) {

@@ -39,6 +39,45 @@ TEST_F(IntegrateOutput, SeveralIntegrandsShareTheirCalls) {
   EXPECT_THAT(support::run_carlo("integrate genz_c0_2d genz_c0_5d").output, HasSubstr("must be the same"));
 }
 
+// One integral has the keys of several, and its own at the top as well.
+TEST_F(IntegrateOutput, JsonHasOneShape) {
+  const nlohmann::json one = run("integrate 'x*y' -d x=0:1,y=0:2 --name area"),
+                       two = run("integrate 'x*y' x -d x=0:1,y=0:2 --name area --name side");
+  for (const nlohmann::json& j : {one, two}) {
+    ASSERT_EQ(j["outputs"].size(), j["correlation"].size());
+    EXPECT_EQ(j["outputs"][0]["integrand"], "x*y");
+    EXPECT_EQ(j["outputs"][0]["name"], "area");
+    EXPECT_NEAR(j["outputs"][0]["value"], 1, 1e-2);
+  }
+  for (const auto& [key, value] : one["outputs"][0].items()) EXPECT_EQ(one[key], value) << key;
+  EXPECT_EQ(two["outputs"][1]["name"], "side");
+}
+
+TEST_F(IntegrateOutput, NamesStandForExpressions) {
+  EXPECT_THAT(support::run_carlo("integrate 'x*y' -d x=0:1,y=0:2 --name area").output,
+              testing::StartsWith("area = 0.99998"));
+  EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --name a --name b").output,
+              HasSubstr("--name is given 2 times for 1 integrands"));
+  EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --name 3").output, HasSubstr("is no name of a variable"));
+  EXPECT_THAT(support::run_carlo("integrate x x -d x=0:1 --name a --name a").output, HasSubstr("'a' is given twice"));
+}
+
+TEST_F(IntegrateOutput, ReplacedValuesAreCounted) {
+  const std::string arguments = "integrate 'sqrt(x)' -d x=-1:1 --nan 0";
+  const nlohmann::json j = run(arguments);
+  EXPECT_NEAR(j["value"], 2.0 / 3, 5 * j["std_error"].get<double>());
+  EXPECT_NEAR(j["replaced"].get<double>() / j["calls"].get<double>(), 0.5, 0.05);
+  EXPECT_THAT(support::run_carlo(arguments).output,
+              testing::ContainsRegex("\n[0-9]+ values were not a number and count as 0 \\(--nan\\)"));
+}
+
+TEST_F(IntegrateOutput, FiniteSumIsExact) {
+  const nlohmann::json j = run("integrate 1/k^2 -d k=1..6 --histogram k=0.5:3.5:3");
+  EXPECT_DOUBLE_EQ(j["value"], 1 + 1.0 / 4 + 1.0 / 9 + 1.0 / 16 + 1.0 / 25 + 1.0 / 36);
+  EXPECT_EQ(j["std_error"], 0);
+  EXPECT_EQ(j["histogram"][1]["value"], 0.25);
+}
+
 TEST_F(IntegrateOutput, RoundsSumToTheRun) {
   const nlohmann::json j = run(peak + "--rel-error 1e-5 --method vegas");
   double chi2 = 0;
@@ -95,7 +134,7 @@ TEST_F(IntegrateOutput, HistogramSumsToTheIntegral) {
       support::run_carlo("integrate 'sin(x)' -d x=-1:1 --method rqmc --histogram x=4").output,
       testing::AllOf(HasSubstr("x in [0.5, 1)"),
                      testing::Not(testing::ContainsRegex("[0-9] % [-#]")))); // the total is 0, so no shares are printed
-  EXPECT_THAT(support::run_carlo(peak + "--histogram z=10").output, HasSubstr("there is no variable 'z'"));
+  EXPECT_THAT(support::run_carlo(peak + "--histogram z=10").output, HasSubstr("unknown name 'z'; use one of x, y"));
   EXPECT_THAT(support::run_carlo(peak + "--histogram x").output, HasSubstr("must be AXIS=BINS"));
   EXPECT_THAT(support::run_carlo("integrate 'exp(x)' -d x=-inf:1 --histogram value=9").output,
               HasSubstr("infinite along x"));

@@ -61,7 +61,7 @@ TEST(Theory, LatticeRatesForMatchingFaces) {
   EXPECT_EQ(rate->bound, RateBound::exact);
   EXPECT_EQ(exponent("lattice", Class::additive, 2), 1);
   EXPECT_EQ(theoretical_rate("sobol", {Class::additive, 0, true}, 2)->exponent, 1.5);
-  const carlo::UnitCubeIntegral sphere = carlo::find_integrand("cos2_sphere", "");
+  const carlo::UnitCubeIntegral sphere = carlo::find_integrand("cos2_sphere", {});
   for (const std::uint64_t n : {16, 256}) {
     double squares = 0;
     constexpr int shifts = 4000;
