@@ -68,7 +68,9 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
        {
            {"--derive", "EXPR", &o.derived,
             "Print a function of the integrals, e.g. \"A/B\" or \"A-B\", with the error that their covariance gives. A "
-            "and B are names of --name; without names the integrals are I1, I2, ... Can be given several times."},
+            "and B are names of --name; without names the integrals are I1, I2, ... The parts of a complex integral "
+            "end "
+            "in _re and _im. Can be given several times."},
            {"-o,--output", "FOLDER", &o.output,
             "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
            {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
@@ -155,6 +157,8 @@ void evaluate(const IntegrandSet& set, std::span<const double> u, std::span<doub
 
 // Integrates all integrands together, or one with its histogram.
 mc::VectorIntegral results_of(const IntegrandSets& sets, const Histogram& histogram, const mc::IntegrateOptions& o) {
+  for (const IntegrandSet& set : sets)
+    if (set.expression) set.expression->take_replaced(); // of an earlier run
   const IntegrandSet& first = sets.front();
   const std::size_t each = first.integrands.size();
   mc::VectorIntegrand f = [&, each](std::span<const double> u, std::span<double> values) {
@@ -166,6 +170,40 @@ mc::VectorIntegral results_of(const IntegrandSets& sets, const Histogram& histog
   if (!histogram.bins.empty()) return integrate(histogram, first.dim(), o);
   if (outputs == 1) return {{mc::integrate_unit(first.integrands.front().f, first.dim(), o)}, {1}};
   return mc::integrate_unit(f, static_cast<int>(outputs), first.dim(), o);
+}
+
+// The least absolute value of an integral, of a complex one the modulus.
+double least_modulus(const IntegrandSets& sets, const mc::VectorIntegral& r) {
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t k = 0;
+  const auto value = [&] { return r.outputs[k++].estimate.value; };
+  for (const IntegrandSet& set : sets)
+    for (std::size_t i = 0; i < set.integrands.size(); ++i) {
+      const double first = value(), second = set.is_complex(i) ? value() : 0;
+      if (set.is_complex(i)) ++i;
+      least = std::min(least, std::hypot(first, second));
+    }
+  return least;
+}
+
+// The relative error of a complex integral is relative to its modulus, which a short run estimates first. Repeats a run
+// that converged too early because the modulus was smaller. Leaves the absolute error that was used in `o`.
+mc::VectorIntegral results_by_modulus(const IntegrandSets& sets, const Histogram& histogram, mc::IntegrateOptions& o) {
+  if (sets.front().texts.back() + 1 == sets.front().texts.size()) // no text has two integrands
+    return results_of(sets, histogram, o);
+  constexpr std::uint64_t short_run = 1 << 14;
+  constexpr int most_runs = 4;
+  const double given = o.abs_error;
+  mc::IntegrateOptions pilot = o;
+  pilot.max_calls = std::min(o.max_calls, short_run);
+  mc::VectorIntegral r = results_of(sets, histogram, pilot);
+  for (int run = 0; run < most_runs; ++run) {
+    o.abs_error = std::max(given, o.rel_error * least_modulus(sets, r));
+    r = results_of(sets, histogram, o);
+    const double wanted = std::max(given, o.rel_error * least_modulus(sets, r));
+    if (r.outputs.front().stop != mc::StopReason::converged || o.abs_error <= 1.01 * wanted) break;
+  }
+  return r;
 }
 
 // The message about a point u where the integrand is not finite, in the integrand's own variables.
@@ -196,19 +234,25 @@ void require_names(const IntegrateCommandOptions& o) {
   }
 }
 
+// Names of the integrands of a set: those of --name, or I1, I2, ... The parts of a complex one end in _re and _im.
+std::vector<std::string> names_of(const IntegrandSet& set, const std::vector<std::string>& given) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < set.integrands.size(); ++i) {
+    const std::size_t text = set.texts[i];
+    names.push_back(given.empty() ? fmt::format("I{}", text + 1) : given[text]);
+    if (set.is_complex(i)) names.back() += "_re";
+    if (i > 0 && set.is_complex(i - 1)) names.back() += "_im";
+  }
+  return names;
+}
+
 // Fills the points, integrands and names of `found`. Returns the integrands of each point.
 IntegrandSets integrands_of(const IntegrateCommandOptions& o, IntegrateResults& found) {
   mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
-  mc::require(o.integrands.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
-              "integrate: --histogram and --quantiles are of one integrand; {} were given", o.integrands.size());
   require_names(o);
-  const std::vector<SweepPoint> points = sweep_points(o.expression.settings);
-  mc::require(points.size() * o.integrands.size() <= 500, "--set: {} integrals; at most 500 are possible",
-              points.size() * o.integrands.size());
   IntegrandSets sets;
   found.points.clear();
-  found.names = o.names;
-  for (const SweepPoint& point : points) {
+  for (const SweepPoint& point : sweep_points(o.expression.settings)) {
     ExpressionContext context = o.expression;
     context.settings = point.settings;
     sets.push_back(find_integrands(o.integrands, context));
@@ -217,30 +261,27 @@ IntegrandSets integrands_of(const IntegrateCommandOptions& o, IntegrateResults& 
                 "--set: the sums of one value are sampled, those of another are not; sweep within {} terms",
                 ExpressionIntegral::summed_terms);
     found.points.push_back(point.swept);
-    for (std::size_t i = 0; i < o.integrands.size(); ++i) {
-      found.integrands.push_back(sets.back().integrands[i]);
-      if (!o.names.empty()) found.integrands.back().title = o.names[i];
-    }
+    found.integrands.insert(found.integrands.end(), sets.back().integrands.begin(), sets.back().integrands.end());
   }
-  mc::require(!found.is_sweep() || (o.histogram.empty() && o.quantiles.empty() && !o.rounds),
-              "integrate: --histogram, --quantiles and --rounds are of one integral, not of a sweep");
+  constexpr std::size_t most_integrals = 500;
+  mc::require(sets.size() == 1 || found.integrands.size() <= most_integrals,
+              "--set: {} integrals; at most {} are possible", found.integrands.size(), most_integrals);
+  if (!o.names.empty()) found.names = names_of(sets.front(), o.names);
+  for (std::size_t i = 0; i < found.integrands.size() && !found.names.empty(); ++i)
+    found.integrands[i].title = found.names[i % found.names.size()];
+  mc::require(found.integrands.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
+              "integrate: --histogram and --quantiles are of one integrand; {} were given", found.integrands.size());
+  mc::require(!found.is_sweep() || !o.rounds, "integrate: --rounds is of one run, not of a sweep");
   mc::require(found.is_sweep() || o.output.empty(),
               "--output is for a sweep, as --set a=1:3:0.5; --json writes a single result");
   return sets;
 }
 
-// Names of the integrals in --derive.
-std::vector<std::string> derived_names(const IntegrateCommandOptions& o) {
-  std::vector<std::string> names = o.names;
-  for (std::size_t i = names.size(); i < o.integrands.size(); ++i) names.push_back(fmt::format("I{}", i + 1));
-  return names;
-}
-
-void add_derived(IntegrateResults& found, const IntegrateCommandOptions& o) {
+void add_derived(IntegrateResults& found, const std::vector<std::string>& names,
+                 const std::vector<std::string>& expressions) {
   for (std::size_t p = 0; p < found.points.size(); ++p)
-    for (const std::string& expression : o.derived)
-      found.derived.push_back(
-          derived_value(expression, derived_names(o), found.results, p * found.integrands_per_point()));
+    for (const std::string& expression : expressions)
+      found.derived.push_back(derived_value(expression, names, found.results, p * names.size()));
 }
 
 // Writes the table of a sweep, and draws it.
@@ -296,7 +337,7 @@ int run_integrate(const IntegrateCommandOptions& o) {
   const IntegrandSets sets = integrands_of(o, found);
   const IntegrandSet& set = sets.front();
   for (const std::string& expression : o.derived)
-    mc::with_context("--derive", [&] { parse_function(expression, derived_names(o)); });
+    mc::with_context("--derive", [&] { parse_function(expression, names_of(set, o.names)); });
   const std::filesystem::path folder = o.output.empty() ? "" : mc::make_output_folder(o.output, "sweep.csv");
   const std::vector<double> wanted = probabilities(o.quantiles);
   if (!wanted.empty()) measure_of(set, "--quantiles");
@@ -310,10 +351,8 @@ int run_integrate(const IntegrateCommandOptions& o) {
   };
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
-  for (const IntegrandSet& one : sets)
-    if (one.expression) one.expression->take_replaced();
   try {
-    found.results = results_of(sets, histogram, settings);
+    found.results = results_by_modulus(sets, histogram, settings);
   } catch (const mc::NotFinite& e) {
     throw mc::Error(in_variables(e, sets));
   } catch (const mc::Error&) {
@@ -337,7 +376,7 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
 
-  add_derived(found, o);
+  add_derived(found, names_of(set, o.names), o.derived);
   if (found.is_sweep()) {
     fmt::print("{}{}", sweep_table(found), calls_text(found));
     write_sweep(found, folder);
@@ -361,12 +400,13 @@ Subcommand integrate_subcommand() {
   return make_subcommand<IntegrateCommandOptions>(
       {.name = "integrate",
        .summary = "Estimate an integral, of a named integrand or an expression, with an error bar",
-       .examples = {{"carlo integrate \"exp(-x*x)*cos(y)\" -d \"x=0:1,y=-1:2\" --rel-error 1e-4",
-                     "integrates over a rectangle to a relative error of 0.01 %"},
-                    {"carlo integrate \"exp(-x*x/2)\" -d \"x=-inf:inf\" --histogram x=10",
-                     "shows which parts of the line the integral comes from"},
-                    {"carlo integrate pi --method rqmc --json pi.json",
-                     "integrates a named integrand, and writes JSON"}},
+       .examples =
+           {{"carlo integrate \"exp(-x*x)*cos(y)\" -d \"x=0:1,y=-1:2\" --rel-error 1e-4",
+             "integrates over a rectangle to a relative error of 0.01 %"},
+            {"carlo integrate \"exp(-x*x/2)\" -d \"x=-inf:inf\" --histogram x=10",
+             "shows which parts of the line the integral comes from"},
+            {"carlo integrate \"a*r\" --let \"r=sqrt(x*x+y*y)\" -d \"x=0:1,y=0:x\" --where \"r<1\" --set a=1:2:0.5",
+             "integrates over a part of a triangle, for three values of a parameter"}},
        .failure = "the wanted error was not reached, or the error is not known",
        .sections = {expression_section()}},
       rows, run_integrate);

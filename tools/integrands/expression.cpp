@@ -317,7 +317,7 @@ ExpressionProgram::Frame ExpressionProgram::frame() const {
   return Frame(*last);
 }
 
-double& ExpressionProgram::Frame::operator[](std::size_t value) const { return state_->values[value]; }
+ExpressionProgram::Frame::Frame(State& state) : state_(&state), values_(state.values.data()) {}
 double ExpressionProgram::Frame::evaluate(std::size_t expression) const { return state_->parsers[expression]->Eval(); }
 
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,

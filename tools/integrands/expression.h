@@ -49,12 +49,13 @@ class ExpressionProgram {
   /// The values of the calling thread. Valid until the program changes.
   class Frame {
    public:
-    explicit Frame(State& state) : state_(&state) {}
-    double& operator[](std::size_t value) const;
+    explicit Frame(State& state);
+    double& operator[](std::size_t value) const { return values_[value]; }
     double evaluate(std::size_t expression) const;
 
    private:
     State* state_;
+    double* values_;
   };
   Frame frame() const;
 

@@ -47,7 +47,7 @@ struct ExpressionIntegral::Builder {
         return add_constant(p.name, parse_function(p.text, constants)(constant_values));
       const std::size_t expression = integral.program_.add_expression(p.text);
       const StepKind kind = p.name.empty() ? StepKind::condition : StepKind::let;
-      integral.steps_.push_back({kind, p.name.empty() ? 0 : add_name(p.name), expression, {}, {}, 0, 0});
+      integral.steps_.push_back({kind, p.name.empty() ? 0 : add_name(p.name), expression, {}, {}, 0, 0, false});
     });
   }
   // Adds what was pending and now has all of its values.
@@ -72,12 +72,14 @@ struct ExpressionIntegral::Builder {
   }
 
   void add(const VariableText& v) {
-    Step step{StepKind::interval, 0, 0, parameter(v.first, v), parameter(v.second, v), 0, integral.variables_.size()};
+    Step step{StepKind::interval,         0,    0, parameter(v.first, v), parameter(v.second, v), 0,
+              integral.variables_.size(), false};
     const double a = step.first.value, b = step.second.value;
     switch (v.kind) {
     case VariableText::Kind::interval:
       mc::require(!step.is_constant() || a < b, "--domain: '{}' has bounds {} and {}; lo < hi is needed", v.text, a, b);
-      if (step.is_constant() && std::isfinite(a) && std::isfinite(b)) measure *= b - a;
+      step.is_box_side = step.is_constant() && std::isfinite(a) && std::isfinite(b);
+      if (step.is_box_side) measure *= b - a;
       break;
     case VariableText::Kind::normal:
       step.kind = StepKind::normal;
@@ -148,13 +150,30 @@ ExpressionIntegral::ExpressionIntegral(const ExpressionContext& context, const s
   }
   // What is left has unknown names, of which its expression complains.
   for (const Builder::Pending& p : builder.pending) builder.add(p);
-  for (const std::string& text : expressions) expressions_.push_back(program_.add_expression(text));
   names_ = builder.names;
+  for (std::size_t i = 0; i < expressions.size(); ++i) add_output(i, expressions[i]);
 
   constant_measure_ = static_cast<double>(builder.measure);
   mc::require(std::isfinite(constant_measure_), "--domain: the volume of '{}' overflows", context.domain);
   mc::require(constant_measure_ >= std::numeric_limits<double>::min(),
               "--domain: the volume of '{}' is too small for a double", context.domain);
+}
+
+void ExpressionIntegral::add_output(std::size_t index, const std::string& text) {
+  if (has_name("i") || !uses_imaginary_unit(text)) {
+    outputs_.push_back({index, Part::whole, program_.add_expression(text)});
+    return;
+  }
+  complex_.emplace_back(text, program_);
+  outputs_.push_back({index, Part::real, complex_.size() - 1});
+  if (!complex_.back().is_real_valued()) outputs_.push_back({index, Part::imaginary, complex_.size() - 1});
+}
+
+double ExpressionIntegral::part_of(std::complex<double> z, const Output& output) const {
+  if (output.part == Part::imaginary) return z.imag();
+  // As in real expressions, the square root of a negative number is not a number.
+  const bool is_undefined = complex_[output.value].is_real_valued() && z.imag() != 0;
+  return is_undefined ? std::numeric_limits<double>::quiet_NaN() : z.real();
 }
 
 std::string ExpressionIntegral::describe(const Frame& frame, std::size_t variables) const {
@@ -192,9 +211,7 @@ double ExpressionIntegral::take(const Step& step, std::span<const double> u, con
   const MappedPoint at = step.kind == StepKind::interval ? map_to_bounds(a, b, v) : map_to_integers(a, b, v);
   frame[step.value] = at.x;
   if (std::isinf(at.x)) return 0;
-  const bool in_constant_measure =
-      step.kind == StepKind::interval && step.is_constant() && std::isfinite(a) && std::isfinite(b);
-  return in_constant_measure ? 1 : at.slope;
+  return at.slope;
 }
 
 std::pair<double, double> ExpressionIntegral::summed_range(const Step& step, const Frame& frame) const {
@@ -239,7 +256,7 @@ std::string ExpressionIntegral::describe_point(std::span<const double> u) const 
   bool found = false;
   visit(u, [&](double, const Frame& frame) {
     if (found) return;
-    for (std::size_t i = 0; i < outputs(); ++i) found = found || !std::isfinite(frame.evaluate(expressions_[i]));
+    for (std::size_t i = 0; i < outputs_.size(); ++i) found = found || !std::isfinite(value(frame, i));
     if (found || text.empty()) text = describe(frame, variables_.size());
   });
   return text.empty() ? "a point outside the domain" : text;
@@ -280,11 +297,18 @@ std::optional<double> ExpressionIntegral::value_at(std::string_view variable, do
 }
 
 std::vector<UnitCubeIntegral> integrands_of(const std::shared_ptr<const ExpressionIntegral>& integral,
-                                            const std::vector<std::string>& expressions, const std::string& domain) {
+                                            const std::vector<std::string>& texts, const std::string& domain) {
   std::vector<UnitCubeIntegral> all;
-  for (std::size_t i = 0; i < expressions.size(); ++i) {
-    UnitCubeIntegral e{.name = expressions[i],
-                       .title = expressions[i],
+  const std::vector<ExpressionIntegral::Output>& outputs = integral->outputs();
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const bool is_complex = std::count_if(outputs.begin(), outputs.end(), [&](const ExpressionIntegral::Output& o) {
+                              return o.text == outputs[i].text;
+                            }) > 1;
+    const bool is_imaginary = outputs[i].part == ExpressionIntegral::Part::imaginary;
+    std::string name = texts[outputs[i].text];
+    if (is_complex) name = fmt::format("{}({})", is_imaginary ? "im" : "re", name);
+    UnitCubeIntegral e{.name = name,
+                       .title = name,
                        .source = domain,
                        .dim = integral->dim(),
                        .truth = std::numeric_limits<double>::quiet_NaN(),
@@ -303,6 +327,8 @@ UnitCubeIntegral parse_expression(const std::string& expression, const Expressio
               "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"",
               abbreviate(expression));
   const auto integral = std::make_shared<const ExpressionIntegral>(context, std::vector{expression});
+  mc::require(integral->outputs().size() == 1, "'{}' is complex; take re(...), im(...) or abs(...) of it",
+              abbreviate(expression));
   return integrands_of(integral, {expression}, context.domain).front();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Integrals of expressions over a domain with bounds that may depend on other variables.
 
+#include <integrands/complex_expression.h>
 #include <integrands/expression.h>
 #include <integrands/unit_cube_integral.h>
 #include <integrands/variable_bounds.h>
@@ -30,7 +31,8 @@ struct ExpressionContext {
 /// A text "name=value" in two parts, trimmed. Throws Error that names the option for any other text.
 std::pair<std::string, std::string> split_definition(std::string_view option, std::string_view text);
 
-/// Integrals of expressions over one domain, as integrals over the unit cube.
+/// Integrals of expressions over one domain, as integrals over the unit cube. An expression has one output, or two if
+/// it is complex.
 ///   variables   : in their order. Bounds may use settings, and variables and lets that need no later variable.
 ///   interval    : see map_to_bounds.
 ///   normal      : the measure is the normal distribution.
@@ -45,7 +47,14 @@ class ExpressionIntegral {
   ///          ordered, with the option and a remedy.
   ExpressionIntegral(const ExpressionContext& context, const std::vector<std::string>& expressions);
 
-  std::size_t outputs() const { return expressions_.size(); }
+  /// One value of an expression.
+  enum class Part { whole, real, imaginary };
+  struct Output {
+    std::size_t text; ///< index of its expression
+    Part part;
+    std::size_t value; ///< index in the program; of a complex expression in complex_
+  };
+  const std::vector<Output>& outputs() const { return outputs_; }
   int dim() const { return std::max(coordinates_, 1); }
   /// Whether the integral is a finite sum, the same at every point of the cube.
   bool is_exact_sum() const { return coordinates_ == 0; }
@@ -61,9 +70,6 @@ class ExpressionIntegral {
 
   /// Adds an expression that visit() can evaluate. Returns its index.
   std::size_t add_expression(const std::string& text) { return program_.add_expression(text); }
-  /// Index of the expression of an output.
-  std::size_t expression_of(std::size_t output) const { return expressions_[output]; }
-
   /// Calls f(weight, frame) for every term at the point u: once, or for each tuple of summed integers. Not called where
   /// a condition fails.
   ///   throws : mc::Error where a bound is not a number or the bounds are not ordered.
@@ -73,7 +79,8 @@ class ExpressionIntegral {
   }
   /// The value of an output in a term; see ExpressionContext::nan.
   double value(const ExpressionProgram::Frame& frame, std::size_t output) const {
-    const double y = frame.evaluate(expressions_[output]);
+    const Output& o = outputs_[output];
+    const double y = o.part == Part::whole ? frame.evaluate(o.value) : part_of(complex_[o.value].evaluate(frame), o);
     return y == y || !nan_ ? y : replaced();
   }
   /// The integrands at the point u, one for each output.
@@ -108,6 +115,7 @@ class ExpressionIntegral {
     Parameter first, second;
     std::size_t coordinate; ///< of the cube
     std::size_t variable;   ///< index in variables_
+    bool is_box_side;       ///< an interval with constant finite bounds
     bool is_constant() const { return first.is_constant() && second.is_constant(); }
   };
   struct Builder;
@@ -125,6 +133,11 @@ class ExpressionIntegral {
         }
         return;
       }
+      if (step.is_box_side) { // as map_to_bounds; the factor is part of constant_measure_
+        const double v = u[step.coordinate];
+        frame[step.value] = step.first.value * (1 - v) + step.second.value * v;
+        continue;
+      }
       const double factor = take(step, u, frame);
       if (factor == 0) return;
       weight *= factor;
@@ -139,27 +152,30 @@ class ExpressionIntegral {
                            std::string_view remedy) const;
   /// "x = 0.5, y = 1": the first variables.
   std::string describe(const ExpressionProgram::Frame& frame, std::size_t variables) const;
+  double part_of(std::complex<double> z, const Output& output) const;
   double replaced() const;
+  void add_output(std::size_t index, const std::string& text);
 
   ExpressionProgram program_;
   std::vector<VariableText> variables_;
   std::vector<std::size_t> variable_values_; ///< indices of their values
   std::vector<std::string> names_;           ///< of variables, lets and settings
   std::vector<Step> steps_;
-  std::vector<std::size_t> expressions_; ///< of the outputs
-  double constant_measure_ = 1;          ///< product of the lengths of the finite constant intervals
+  std::vector<Output> outputs_;
+  std::vector<ComplexExpression> complex_;
+  double constant_measure_ = 1; ///< product of the lengths of the finite constant intervals
   int coordinates_ = 0;
   std::optional<double> nan_;
   std::shared_ptr<std::atomic<std::uint64_t>> replaced_;
 };
 
-/// The outputs as integrands, one for each expression.
+/// The outputs as integrands. `texts` are the expressions.
 std::vector<UnitCubeIntegral> integrands_of(const std::shared_ptr<const ExpressionIntegral>& integral,
-                                            const std::vector<std::string>& expressions, const std::string& domain);
+                                            const std::vector<std::string>& texts, const std::string& domain);
 
 /// The integral of an expression such as "exp(-x*x)*cos(y)" over the domain "x=0:1,y=-1:2", as an integral over the
 /// unit cube. Its truth is NaN, since it is unknown.
-///   throws : mc::Error as ExpressionIntegral, and where there is no domain.
+///   throws : mc::Error as ExpressionIntegral, for a complex expression, and where there is no domain.
 UnitCubeIntegral parse_expression(const std::string& expression, const ExpressionContext& context);
 
 } // namespace carlo

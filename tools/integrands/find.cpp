@@ -56,9 +56,11 @@ IntegrandSet find_integrands(const std::vector<std::string>& texts, const Expres
   if (!context.domain.empty()) {
     set.expression = std::make_shared<ExpressionIntegral>(context, texts);
     set.integrands = integrands_of(set.expression, texts, context.domain);
+    for (const ExpressionIntegral::Output& o : set.expression->outputs()) set.texts.push_back(o.text);
     return set;
   }
   for (const std::string& text : texts) {
+    set.texts.push_back(set.integrands.size());
     set.integrands.push_back(find_integrand(text, context));
     mc::require(set.integrands.back().dim == set.dim(),
                 "integrate: '{}' has {} dimensions, '{}' {}; they must be the same", text, set.integrands.back().dim,

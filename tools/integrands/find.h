@@ -14,12 +14,16 @@ std::vector<const UnitCubeIntegral*> named_integrands();
 ///            expression or invalid bounds.
 UnitCubeIntegral find_integrand(const std::string& text, const ExpressionContext& context);
 
-/// Several integrands over one domain. `expression` is null if they have names.
+/// Several integrands over one domain. `expression` is null if they have names. A complex expression is two integrands,
+/// its real and its imaginary part.
 struct IntegrandSet {
   std::vector<UnitCubeIntegral> integrands;
+  std::vector<std::size_t> texts; ///< the text of each integrand
   std::shared_ptr<ExpressionIntegral> expression = {};
 
   int dim() const { return integrands.front().dim; }
+  /// Whether integrands k and k + 1 are the parts of a complex expression.
+  bool is_complex(std::size_t k) const { return k + 1 < texts.size() && texts[k] == texts[k + 1]; }
 };
 
 /// All expressions over the domain of the context; without one the integrands with these names.

@@ -83,7 +83,7 @@ TEST_F(Sweep, BoundsMayUseItsParameter) {
 
 TEST_F(Sweep, BadCombinations_AreRefused) {
   const auto says = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).output; };
-  EXPECT_THAT(says("a*x -d x=0:1 --set a=1:2:1 --histogram x=4"), HasSubstr("not of a sweep"));
+  EXPECT_THAT(says("a*x -d x=0:1 --set a=1:2:1 --histogram x=4"), HasSubstr("of one integrand; 2 were given"));
   EXPECT_THAT(says("x -d x=0:1 --output " + path("o")), HasSubstr("--output is for a sweep"));
   EXPECT_THAT(says("a*x a -d x=0:1 --set a=1:400:1"), HasSubstr("800 integrals; at most 500"));
   EXPECT_THAT(says("1 -d k=1..n --set n=500:2500:1000"), HasSubstr("sweep within 1000 terms"));

@@ -71,6 +71,22 @@ TEST_F(IntegrateOutput, ReplacedValuesAreCounted) {
               testing::ContainsRegex("\n[0-9]+ values were not a number and count as 0 \\(--nan\\)"));
 }
 
+// The error of each part is relative to the modulus: the imaginary part of the second integral is 0.
+TEST_F(IntegrateOutput, ComplexIntegralsHaveTwoParts) {
+  const nlohmann::json j =
+      run("integrate 'exp(i*x)' 'exp(i*x-x*x/2)/sqrt(2*_pi)' -d x=-8:9 --name f --name g --derive 'hypot(g_re, g_im)'");
+  ASSERT_EQ(j["outputs"].size(), 4u);
+  const double truths[] = {std::sin(9) + std::sin(8), std::cos(8) - std::cos(9), std::exp(-0.5), 0};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double error = j["outputs"][k]["std_error"], modulus = k < 2 ? std::hypot(truths[0], truths[1]) : truths[2];
+    EXPECT_NEAR(j["outputs"][k]["value"], truths[k], 5.5 * error) << k;
+    EXPECT_LE(error, 1.02e-3 * modulus) << k;
+  }
+  EXPECT_EQ(j["outputs"][3]["name"], "g_im");
+  EXPECT_EQ(j["outputs"][3]["integrand"], "im(exp(i*x-x*x/2)/sqrt(2*_pi))");
+  EXPECT_NEAR(j["derived"][0]["value"], truths[2], 1e-2);
+}
+
 TEST_F(IntegrateOutput, FiniteSumIsExact) {
   const nlohmann::json j = run("integrate 1/k^2 -d k=1..6 --histogram k=0.5:3.5:3");
   EXPECT_DOUBLE_EQ(j["value"], 1 + 1.0 / 4 + 1.0 / 9 + 1.0 / 16 + 1.0 / 25 + 1.0 / 36);
