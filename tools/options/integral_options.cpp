@@ -103,12 +103,12 @@ std::vector<Option> integral_option_rows(IntegralOptions& o) {
 OptionGroup plugin_group(IntegralOptions& o) {
   return {"Your own integrands",
           {
-              {"--plugin",
-               "FILE",
-               &o.plugin,
-               "Take the integrands of this shared object, compiled against <mc/check/plugin.h>.",
-               false,
-               {{"--domain", "a plugin states its own bounds"}}},
+              input_file({"--plugin",
+                          "FILE",
+                          &o.plugin,
+                          "Take the integrands of this shared object, compiled against <mc/check/plugin.h>.",
+                          false,
+                          {{"--domain", "a plugin states its own bounds"}}}),
               {"--timeout", "SECONDS", &o.timeout,
                "Wall-clock time for the repetitions of a plugin at one N. Default: 60."},
               {"--memory", "GIB", &o.memory, "Memory for a plugin, in GiB. Default: 4."},

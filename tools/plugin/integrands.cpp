@@ -145,7 +145,7 @@ json describe(const std::vector<mc_integrand>& integrands) {
   json all = json::array();
   for (const mc_integrand& f : integrands)
     all.push_back({{"name", f.name},
-                   {"title", f.title ? f.title : f.name},
+                   {"title", mc::printable(f.title ? f.title : f.name, 200)},
                    {"dim", f.dim},
                    {"batch", f.eval_many != nullptr},
                    {"truth", f.has_truth ? json(f.truth) : json()}});
