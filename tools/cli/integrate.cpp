@@ -70,18 +70,12 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
        {
            {"--derive", "EXPR", &o.derived,
             "Print a function of the integrals, e.g. \"A/B\" or \"A-B\", with the error that their covariance gives. A "
-<<<<<<< HEAD
             "and B are names of --name; without names the integrals are I1, I2, ... The parts of a complex integral "
             "end "
             "in _re and _im. Can be given several times."},
-           {"-o,--output", "FOLDER", &o.output,
-            "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
-=======
-            "and B are names of --name; without names the integrals are I1, I2, ... Can be given several times."},
            output_folder({"-o,--output", "FOLDER", &o.output,
                           "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
                          {"sweep.csv", "sweep.gp", "sweep.svg", "sweep.png"}),
->>>>>>> 4c2f4d4 (Keep results through interrupts, full disks and wrong names)
            {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
            {"--histogram", "AXIS=BINS", &o.histogram,
             "Print the shares of the integral along a variable (u0, u1, ... of a named integrand), each with its "
@@ -389,12 +383,8 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
 
-<<<<<<< HEAD
   add_derived(found, names_of(set, o.names), o.derived);
-=======
-  add_derived(found, o);
   ResultWriter results;
->>>>>>> 4c2f4d4 (Keep results through interrupts, full disks and wrong names)
   if (found.is_sweep()) {
     fmt::print("{}{}", sweep_table(found), calls_text(found));
     write_sweep(results, found, folder, cancelled);
