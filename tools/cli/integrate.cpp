@@ -59,7 +59,8 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach."},
            {"--abs-error", "ERROR", &o.abs_error,
             "Absolute standard error that also suffices, in units of the integral."},
-           {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand."},
+           {"--max-calls", "N", &o.max_calls,
+            "Most evaluations of the integrand. The values of a sweep share them, but at least 16384 each."},
            {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
            {"--list", "", &o.list, "List the named integrands, and stop."},
            output_file(
@@ -349,11 +350,13 @@ int run_integrate(const IntegrateCommandOptions& o) {
   const std::vector<double> wanted = probabilities(o.quantiles);
   if (!wanted.empty()) measure_of(set, "--quantiles");
   mc::IntegrateOptions settings = settings_of(o);
+  constexpr std::uint64_t least_of_sweep = 1 << 14;
+  if (found.is_sweep()) settings.max_calls = std::max(o.max_calls / sets.size(), std::min(o.max_calls, least_of_sweep));
   Histogram histogram;
   if (!o.histogram.empty()) histogram = make_histogram(o.histogram, set, o.seed);
   ProgressLine progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
-    progress.show(double(p.calls) / double(o.max_calls),
+    progress.show(double(p.calls) / double(settings.max_calls),
                   fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
   };
   const Interrupt interrupt;
@@ -383,6 +386,10 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
 
+  for (mc::Integral& integral : found.results.outputs) { // a call of a sweep evaluates all of its points
+    integral.calls *= sets.size();
+    for (mc::IntegrateRound& round : integral.rounds) round.calls *= sets.size();
+  }
   add_derived(found, names_of(set, o.names), o.derived);
   ResultWriter results;
   if (found.is_sweep()) {
