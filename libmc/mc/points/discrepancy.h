@@ -20,12 +20,28 @@ double l2_star_discrepancy(PointList points);
 double periodic_l2_discrepancy(PointList points);
 
 /// The wrap-around and the centered L2 discrepancy. Both add the same mean squares over all faces of the cube, and so
-/// also measure the uniformity of projections. Returns the square root, although some programs print the square under
-/// the same name.
+/// also measure the uniformity of projections. Returns the square root; SciPy prints the square under the same name.
 ///   Source : [Hickernell98].
 double wraparound_discrepancy(PointList points);
 /// Centered L2 discrepancy, as defined at wraparound_discrepancy().
 double centered_discrepancy(PointList points);
+/// Mixture L2 discrepancy, a mean of the wrap-around and the centered one. Returns the square root, as above.
+///   Source : [ZhouFangNing13].
+double mixture_discrepancy(PointList points);
+
+/// All L2 discrepancies of a point set, or their root mean squares over several sets.
+struct L2Discrepancies {
+  double star = 0,    ///< l2_star_discrepancy()
+      periodic = 0,   ///< periodic_l2_discrepancy()
+      centered = 0,   ///< centered_discrepancy()
+      wraparound = 0, ///< wraparound_discrepancy()
+      mixture = 0;    ///< mixture_discrepancy()
+};
+/// Computes all of them in one pass over the pairs, with the same bits as the functions above.
+L2Discrepancies l2_discrepancies(PointList points);
+/// Root mean squares for `count` independent points: sqrt((a^dim - b^dim) / count), with (a, b) = (1/2, 1/3) for star
+/// and periodic, (5/4, 13/12) for centered, (3/2, 4/3) for wrap-around and (7/4, 19/12) for mixture.
+L2Discrepancies random_l2_discrepancies(double count, int dim);
 
 /// Expected squared L2 star and periodic discrepancies, for comparison with a point set.
 ///   random   : `count` independent points, for both discrepancies.

@@ -48,13 +48,35 @@ TEST(Discrepancy, MatchesKnownValues) {
   const std::vector<double> middle = {0.5, 0.5}, four = {.25, .25, .25, .75, .75, .25, .75, .75};
   expect(mc::l2_star_discrepancy({middle, 2}), 23.0 / 288);
   expect(mc::l2_star_discrepancy({four, 2}), 71.0 / 4608);
+  expect(mc::centered_discrepancy({middle, 2}), 25.0 / 144);
+  expect(mc::wraparound_discrepancy({middle, 2}), 17.0 / 36);
+  expect(mc::mixture_discrepancy({middle, 2}), 269.0 / 576);
+  expect(mc::centered_discrepancy({four, 2}), 215.0 / 4608);
+  expect(mc::wraparound_discrepancy({four, 2}), 65.0 / 576);
+  expect(mc::mixture_discrepancy({four, 2}), 1855.0 / 18432);
   const std::vector<double> net = test::hammersley(0), shifted = test::hammersley(1.0 / 16);
   expect(mc::l2_star_discrepancy({net, 2}), 4499.0 / 294912);
+  expect(mc::centered_discrepancy({net, 2}), 4499.0 / 294912);
+  expect(mc::wraparound_discrepancy({net, 2}), 1457.0 / 147456);
+  expect(mc::mixture_discrepancy({net, 2}), 17749.0 / 1179648);
   expect(mc::l2_star_discrepancy({shifted, 2}), 5567.0 / 1179648);
   expect(mc::centered_discrepancy({shifted, 2}), 7871.0 / 1179648);
   expect(mc::wraparound_discrepancy({shifted, 2}), 1457.0 / 147456);
   // One point: the share in a box is 1 with probability 1/2 on each axis, so E (1_B - V)^2 = 2^-d - 3^-d.
   expect(mc::periodic_l2_discrepancy({middle, 2}), 1.0 / 4 - 1.0 / 9);
+}
+
+TEST(Discrepancy, OnePassGivesTheSameBits) {
+  for (const std::size_t dim : {1, 2, 5}) {
+    const std::vector<double> x = scattered(101, dim);
+    const PointList p{x, dim};
+    const mc::L2Discrepancies all = mc::l2_discrepancies(p);
+    EXPECT_EQ(all.star, mc::l2_star_discrepancy(p));
+    EXPECT_EQ(all.periodic, mc::periodic_l2_discrepancy(p));
+    EXPECT_EQ(all.centered, mc::centered_discrepancy(p));
+    EXPECT_EQ(all.wraparound, mc::wraparound_discrepancy(p));
+    EXPECT_EQ(all.mixture, mc::mixture_discrepancy(p));
+  }
 }
 
 // Compares with the definition, the mean over 2e5 random boxes with uniform corners and lengths. The bound of 2 % is at
@@ -110,17 +132,27 @@ TEST(Discrepancy, ExpectationsOfRandomAndJitteredPoints) {
       EXPECT_NEAR(mean, truth, 5 * error) << what;
     }
   };
-  Mean star, periodic, jittered_star, jittered_periodic;
+  Mean star, periodic, centered, wraparound, mixture, jittered_star, jittered_periodic;
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const std::vector<double> x = test::points_of(mc::Independent{mc::hash(1, seed)}, 36, 2),
                               y = test::points_of(mc::Stratified(36, mc::hash(2, seed), 2), 36, 2);
     star.add(std::pow(mc::l2_star_discrepancy({x, 2}), 2));
     periodic.add(std::pow(mc::periodic_l2_discrepancy({x, 2}), 2));
+    const mc::L2Discrepancies all = mc::l2_discrepancies({x, 2});
+    centered.add(all.centered * all.centered);
+    wraparound.add(all.wraparound * all.wraparound);
+    mixture.add(all.mixture * all.mixture);
     jittered_star.add(std::pow(mc::l2_star_discrepancy({y, 2}), 2));
     jittered_periodic.add(std::pow(mc::periodic_l2_discrepancy({y, 2}), 2));
   }
   star.expect(mc::random_mean_square(36, 2), "star");
   periodic.expect(mc::random_mean_square(36, 2), "periodic");
+  const mc::L2Discrepancies random = mc::random_l2_discrepancies(36, 2);
+  star.expect(random.star * random.star, "star");
+  periodic.expect(random.periodic * random.periodic, "periodic");
+  centered.expect(random.centered * random.centered, "centered");
+  wraparound.expect(random.wraparound * random.wraparound, "wrap-around");
+  mixture.expect(random.mixture * random.mixture, "mixture");
   jittered_star.expect(mc::jittered_star_mean_square(36, 2), "jittered, star");
   jittered_periodic.expect(mc::jittered_periodic_mean_square(36, 2), "jittered, periodic");
 }
