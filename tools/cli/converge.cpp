@@ -1,16 +1,13 @@
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
+#include <input/points_file.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
-#include <options/files.h>
 #include <options/integral_options.h>
 #include <report/plot.h>
-#include <report/report_json.h>
 #include <terminal/interrupt.h>
-#include <terminal/message.h>
 #include <terminal/progress.h>
-#include <terminal/result_writer.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -37,6 +34,7 @@ struct ConvergeCommandOptions {
   bool all = false;
   std::string samplers; ///< empty: random,stratified,sobol; of a scene all
   std::string points;   ///< a file of points, as one more sampler
+  std::string scale;    ///< the range of their coordinates
   int replicates = 0;
   std::optional<double> time; ///< seconds for everything
   std::uint64_t seed = 1;
@@ -56,22 +54,23 @@ std::vector<SamplingMethod> methods_of(const ConvergeCommandOptions& o) {
       mc::require(can_work(chosen.back()), "--max-n {}: {} takes N of at least {}; raise it, or leave {} out",
                   o.integral.max_n, name, chosen.back().min_calls, name);
     }
-  if (!o.points.empty()) chosen.push_back(points_file_method(o.points));
+  if (!o.points.empty()) {
+    chosen.push_back(points_file_method(o.points, o.scale));
+    if (!o.scale.empty()) fmt::print("{}\n", chosen.back().note);
+  }
   return chosen;
 }
 
 // Writes and prints one target; `pictures` for a scene. Returns whether gnuplot can draw; pass the answer on, so that
 // the warning appears once.
-bool write(ResultWriter& results, const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o,
-           const std::filesystem::path& output, bool can_draw, const PictureMeasurement* pictures = nullptr) {
-  const std::string name = safe_file_name(target.integral.name);
-  const std::filesystem::path folder = result_folder(output, name + ".csv", m.interrupted);
-  const std::string base = (folder / name).string();
-  results.write(base + ".csv", false, to_csv(target, m));
+bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o,
+           const std::filesystem::path& folder, bool can_draw, const PictureMeasurement* pictures = nullptr) {
+  const std::string name = safe_file_name(target.integral.name), base = (folder / name).string();
+  mc::write_file(base + ".csv", to_csv(target, m));
   nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
   if (pictures) about["reference"] = {{"spp", pictures->reference_spp}, {"error", pictures->reference_error}};
-  results.write(base + ".json", false, ordered_json_text(to_json(target, m, about)));
-  results.write(base + ".gp", false, to_script(target, m, name));
+  mc::write_file(base + ".json", to_json(target, m, about).dump(1) + "\n");
+  mc::write_file(base + ".gp", to_script(target, m, name));
   fmt::print("{}", summary(target, m));
   const auto cut =
       std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
@@ -83,9 +82,9 @@ bool write(ResultWriter& results, const IntegralTarget& target, const Measuremen
     remove_plot(folder, name);
     return can_draw;
   }
-  results.attempt([&] { can_draw = draw_plot(folder, name, {name + ".csv"}); });
-  if (!can_draw) warn("gnuplot is not installed; data and scripts are written, but no plots");
-  return can_draw;
+  if (draw_plot(folder, name, {name + ".csv"})) return true;
+  std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  return false;
 }
 
 // Results of the targets, each written as soon as it is measured.
@@ -95,9 +94,9 @@ struct ConvergeRun {
   bool interrupted = false;
 };
 
-ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>& targets,
-                        const std::vector<SamplingMethod>& chosen, const ConvergeCommandOptions& o,
-                        const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
+ConvergeRun measure_all(const std::vector<IntegralTarget>& targets, const std::vector<SamplingMethod>& chosen,
+                        const ConvergeCommandOptions& o, const std::filesystem::path& folder,
+                        const std::atomic<bool>* cancel) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   ConvergeRun run;
@@ -116,7 +115,7 @@ ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>
     const Measurement& done = run.measurements.back();
     run.curves += count_finished(done);
     run.interrupted = done.interrupted;
-    if (!done.curves.empty()) can_draw = write(results, targets[i], done, o, folder, can_draw);
+    if (!done.curves.empty()) can_draw = write(targets[i], done, o, folder, can_draw);
   }
   return run;
 }
@@ -133,26 +132,23 @@ std::vector<Option> rows(ConvergeCommandOptions& o) {
        "Every method; for a scene every strategy, spent evenly and adaptively, with splats and with tiles.",
        false,
        {{"--samplers", "--all takes every method"}}},
-      output_folder(
-          {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG, PNG and slopes.csv."},
-          {"slopes.csv"}),
-      output_folder({"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)."},
-                    {"index.html"}),
+      {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG, PNG and slopes.csv."},
+      {"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)."},
   };
   common.options.insert(common.options.end(), own.begin(), own.end());
   const OptionGroup expert{
       expert_options,
       {
-          input_file({"--points-file", "FILE", &o.points,
-                      "Add the points of this file as a method: one point a row, in [0, 1)."}),
+          {"--points-file", "FILE", &o.points, "Add the points of this file as a method: one point a row, in [0, 1)."},
+          {"--rescale", "LO:HI", &o.scale, rescale_help},
           {"--replicates", "N", &o.replicates,
            "Independent repetitions behind each error, 8 to 100000; 0 is enough to know the error to 10 %."},
           {"--time", "SECONDS", &o.time, "Wall-clock time for everything; larger N are left out."},
           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
       }};
-  return in_groups(
-      {common, expression_group(o.integral.expression), plugin_group(o.integral), scene_group(o.scene), expert});
+  return in_groups({common, expression_group(o.integral.expression), foreign_group(o.integral.foreign),
+                    scene_group(o.scene), expert});
 }
 
 // The folder of the page, checked before any work; empty without --report.
@@ -160,30 +156,11 @@ std::filesystem::path page_folder(const ConvergeCommandOptions& o) {
   return o.report.empty() ? "" : mc::make_output_folder(o.report, "index.html");
 }
 
-void write_report(ResultWriter& results, const std::filesystem::path& output, const ConvergeCommandOptions& o,
-                  const std::vector<PageEntry>& all, bool is_partial) {
-  if (output.empty()) return;
-  const std::filesystem::path folder = result_folder(output, "index.html", is_partial);
-  write_convergence_page(results, folder, converge_header(o.command), all);
+void write_report(const std::filesystem::path& folder, const ConvergeCommandOptions& o,
+                  const std::vector<PageEntry>& all) {
+  if (folder.empty()) return;
+  write_convergence_page(folder, converge_header(o.command), all);
   fmt::print("page: {}\n", (folder / "index.html").string());
-}
-
-// The slopes of all targets; a partial table does not replace one that exists.
-void write_slopes(ResultWriter& results, const std::filesystem::path& output, const std::string& slopes,
-                  bool is_partial) {
-  const std::filesystem::path folder = result_folder(output, "slopes.csv", is_partial);
-  results.write((folder / "slopes.csv").string(), false, slopes_header() + slopes);
-  fmt::print("data and plots: {}\n", folder.string());
-}
-
-// Throws Error where the files of a target would replace an input.
-void refuse_inputs(const ConvergeCommandOptions& o, const std::vector<IntegralTarget>& targets) {
-  std::vector<UsedFile> files = {{o.points, "the file of --points-file"}, {o.integral.plugin, "the file of --plugin"}};
-  for (const std::string& word : o.integral.integrands) files.push_back({word, "an input"});
-  for (const IntegralTarget& target : targets)
-    for (const char* extension : {".csv", ".json", ".gp", ".svg", ".png"})
-      files.push_back({o.output + "/" + safe_file_name(target.integral.name) + extension, "-o", true});
-  require_distinct_files(files);
 }
 
 int run_converge_scene(const ConvergeCommandOptions& o) {
@@ -191,7 +168,6 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const IntegralTarget target = scene_target(o.integral.integrands[0]);
-  refuse_inputs(o, {target});
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
   const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
@@ -205,12 +181,11 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   const bool interrupted = pictures.measurement.interrupted;
   if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
   if (pictures.methods.empty()) return exit_interrupted;
-  ResultWriter results;
-  write(results, target, pictures.measurement, o, folder, true, &pictures);
+  write(target, pictures.measurement, o, folder, true, &pictures);
   fmt::print("{}", bias_summary(pictures));
-  write_slopes(results, folder, slopes_csv(target, pictures.measurement), interrupted);
-  write_report(results, page, o, {{&target, &pictures.measurement, &pictures}}, interrupted);
-  results.finish();
+  mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
+  fmt::print("data and plots: {}\n", folder.string());
+  write_report(page, o, {{&target, &pictures.measurement, &pictures}});
   return interrupted ? exit_interrupted : exit_ok;
 }
 
@@ -218,6 +193,7 @@ int run_converge(const ConvergeCommandOptions& o) {
   if (o.integral.list) return list_integrals();
   mc::require(o.replicates == 0 || (o.replicates >= 8 && o.replicates <= 100'000),
               "--replicates {} must lie in [8, 100000], or be 0", o.replicates);
+  mc::require(o.scale.empty() || !o.points.empty(), "--rescale is for a --points-file");
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   if (is_scene(o.integral.integrands)) return run_converge_scene(o);
   refuse_scene_among(o.integral.integrands);
@@ -225,18 +201,17 @@ int run_converge(const ConvergeCommandOptions& o) {
   const Interrupt interrupt;
   const std::vector<IntegralTarget> targets = targets_of(o.integral);
   const std::vector<SamplingMethod> chosen = methods_of(o);
-  if (!o.integral.expression.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.expression);
+  if (!o.integral.expression.domain.empty() && !o.integral.foreign.is_given())
+    refuse_constant(o.integral.integrands[0], o.integral.expression);
   for (const SamplingMethod& w : chosen)
     for (const IntegralTarget& t : targets)
       mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions",
                   w.name, w.max_dimensions, t.integral.name, t.integral.dim);
-  refuse_inputs(o, targets);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
 
-  ResultWriter results;
-  const ConvergeRun run = measure_all(results, targets, chosen, o, folder, interrupt.flag());
-  std::string slopes;
+  const ConvergeRun run = measure_all(targets, chosen, o, folder, interrupt.flag());
+  std::string slopes = slopes_header();
   std::vector<PageEntry> measured;
   bool doubted = false;
   for (std::size_t i = 0; i < run.measurements.size(); ++i) {
@@ -245,11 +220,11 @@ int run_converge(const ConvergeCommandOptions& o) {
     measured.push_back({&targets[i], &run.measurements[i]});
     doubted = doubted || !run.measurements[i].truth_warning.empty();
   }
+  mc::write_file((folder / "slopes.csv").string(), slopes);
   if (run.interrupted)
     fmt::print("{}\n", interrupted_text(run.curves, targets.size() * chosen.size(), "curves", run.measurements.back()));
-  write_slopes(results, folder, slopes, run.interrupted);
-  write_report(results, page, o, measured, run.interrupted);
-  results.finish();
+  fmt::print("data and plots: {}\n", folder.string());
+  write_report(page, o, measured);
   if (run.interrupted) return exit_interrupted;
   return doubted ? exit_failed : exit_ok;
 }

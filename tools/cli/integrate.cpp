@@ -4,11 +4,11 @@
 #include <integrate/sweep.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
+#include <options/foreign_options.h>
 #include <options/subcommand.h>
 #include <report/integrate_output.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
-#include <terminal/message.h>
 #include <terminal/progress.h>
 #include <terminal/result_file.h>
 
@@ -32,8 +32,10 @@ namespace {
 struct IntegrateCommandOptions {
   std::vector<std::string> integrands; ///< names, or expressions
   ExpressionContext expression;        ///< domain and names of expressions
-  std::vector<std::string> names;      ///< of the integrands
-  std::vector<std::string> derived;    ///< functions of the integrals
+  ForeignOptions foreign;
+  ImportanceOptions importance;
+  std::vector<std::string> names;   ///< of the integrands
+  std::vector<std::string> derived; ///< functions of the integrals
   bool list = false;
   double rel_error = 1e-3, abs_error = 0;
   std::uint64_t max_calls = 10'000'000;
@@ -59,14 +61,14 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach."},
            {"--abs-error", "ERROR", &o.abs_error,
             "Absolute standard error that also suffices, in units of the integral."},
-           {"--max-calls", "N", &o.max_calls,
-            "Most evaluations of the integrand. The values of a sweep share them, but at least 16384 each."},
+           {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand."},
            {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
            {"--list", "", &o.list, "List the named integrands, and stop."},
-           output_file(
-               {"--json", "FILE", &o.json, "Write the result and its rounds to this file; - is standard output."}),
+           {"--json", "FILE", &o.json, "Write the result and its rounds to this file; - is standard output."},
        }},
       expression_group(o.expression),
+      foreign_group(o.foreign),
+      importance_group(o.importance),
       {"More results",
        {
            {"--derive", "EXPR", &o.derived,
@@ -74,9 +76,8 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
             "and B are names of --name; without names the integrals are I1, I2, ... The parts of a complex integral "
             "end "
             "in _re and _im. Can be given several times."},
-           output_folder({"-o,--output", "FOLDER", &o.output,
-                          "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
-                         {"sweep.csv", "sweep.gp", "sweep.svg", "sweep.png"}),
+           {"-o,--output", "FOLDER", &o.output,
+            "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
            {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
            {"--histogram", "AXIS=BINS", &o.histogram,
             "Print the shares of the integral along a variable (u0, u1, ... of a named integrand), each with its "
@@ -90,13 +91,11 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
       {expert_options,
        {
            {"--method", "NAME", &o.method, "Estimator: auto, plain, stratified, rqmc, vegas or tree."},
-           output_file(
-               {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."}),
-           input_file(
-               {"--load-density", "FILE", &o.load_density,
-                "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
-                "where "
-                "it does not fit."}),
+           {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."},
+           {"--load-density", "FILE", &o.load_density,
+            "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
+            "where "
+            "it does not fit."},
            {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
        }},
   });
@@ -156,26 +155,24 @@ mc::VectorIntegral exact(const mc::VectorIntegrand& f, std::size_t outputs) {
 // The integrands at one point of a sweep after those of another; one point if nothing is swept.
 using IntegrandSets = std::vector<IntegrandSet>;
 
-void evaluate(const IntegrandSet& set, std::span<const double> u, std::span<double> values) {
-  if (set.expression) return set.expression->evaluate(u, values);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = set.integrands[i].f(u);
-}
-
 // Integrates all integrands together, or one with its histogram.
 mc::VectorIntegral results_of(const IntegrandSets& sets, const Histogram& histogram, const mc::IntegrateOptions& o) {
   for (const IntegrandSet& set : sets)
     if (set.expression) set.expression->take_replaced(); // of an earlier run
   const IntegrandSet& first = sets.front();
-  const std::size_t each = first.integrands.size();
-  mc::VectorIntegrand f = [&, each](std::span<const double> u, std::span<double> values) {
-    for (std::size_t p = 0; p < sets.size(); ++p) evaluate(sets[p], u, values.subspan(p * each, each));
+  const std::size_t each = first.integrands.size(), outputs = each * sets.size();
+  const auto f = [&](std::span<const double> points, std::span<double> values) {
+    if (sets.size() == 1) return evaluate(first, points, values);
+    const std::size_t dim = static_cast<std::size_t>(first.dim());
+    for (std::size_t i = 0; i < values.size() / outputs; ++i)
+      for (std::size_t p = 0; p < sets.size(); ++p)
+        evaluate(sets[p], points.subspan(i * dim, dim), values.subspan(i * outputs + p * each, each));
   };
-  if (!histogram.bins.empty()) f = histogram.f;
-  const std::size_t outputs = histogram.bins.empty() ? each * sets.size() : 1 + histogram.bins.size();
-  if (first.expression && first.expression->is_exact_sum()) return exact(f, outputs);
+  if (first.is_exact_sum())
+    return histogram.bins.empty() ? exact(f, outputs) : exact(histogram.f, 1 + histogram.bins.size());
   if (!histogram.bins.empty()) return integrate(histogram, first.dim(), o);
-  if (outputs == 1) return {{mc::integrate_unit(first.integrands.front().f, first.dim(), o)}, {1}};
-  return mc::integrate_unit(f, static_cast<int>(outputs), first.dim(), o);
+  if (outputs == 1) return {{mc::integrate_unit(mc::BatchIntegrand{f}, first.dim(), o)}, {1}};
+  return mc::integrate_unit(mc::BatchIntegrand{f}, static_cast<int>(outputs), first.dim(), o);
 }
 
 // The least absolute value of an integral, of a complex one the modulus.
@@ -228,10 +225,9 @@ std::string in_variables(const mc::NotFinite& e, const IntegrandSets& sets) {
 }
 
 // Refuses names that are no variable names, stand twice, or are fewer or more than the integrands.
-void require_names(const IntegrateCommandOptions& o) {
-  const std::vector<std::string>& names = o.names;
-  mc::require(names.empty() || names.size() == o.integrands.size(),
-              "--name is given {} times for {} integrands; give it once for each", names.size(), o.integrands.size());
+void require_names(const std::vector<std::string>& names, std::size_t integrands) {
+  mc::require(names.empty() || names.size() == integrands,
+              "--name is given {} times for {} integrands; give it once for each", names.size(), integrands);
   for (std::size_t i = 0; i < names.size(); ++i) {
     mc::with_context("--name", [&] { require_variable_name(names[i]); });
     mc::require(std::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]) ==
@@ -252,18 +248,47 @@ std::vector<std::string> names_of(const IntegrandSet& set, const std::vector<std
   return names;
 }
 
+// The names of --name, or of the outputs of a program.
+std::vector<std::string> given_names(const IntegrateCommandOptions& o) {
+  return o.names.empty() && !o.foreign.command.empty() ? o.integrands : o.names;
+}
+
+// The integrands of a program, a plugin, or expressions, with points from the importance density.
+IntegrandSet integrand_set(const IntegrateCommandOptions& o, const ExpressionContext& context) {
+  const bool has_foreign_code = o.foreign.is_given() || !o.importance.plugin.empty() || !o.importance.command.empty();
+  const ResourceLimits limits = resource_limits(o.foreign.timeout, o.foreign.memory, has_foreign_code);
+  IntegrandSet set;
+  if (o.foreign.is_given()) {
+    JointIntegrand all = foreign_integrand(o.foreign, o.integrands, context);
+    set = {std::move(all.outputs), {}, nullptr, std::move(all.f)};
+    for (std::size_t k = 0; k < set.integrands.size(); ++k) set.texts.push_back(k);
+  } else {
+    set = find_integrands(o.integrands, context);
+  }
+  require_importance_options(o.importance);
+  if (!o.importance.is_given()) return set;
+  mc::require(o.histogram.empty() && o.quantiles.empty(),
+              "integrate: --histogram and --quantiles need uniform points; leave out {}",
+              o.importance.peaks.empty() ? "the importance density" : "--peak");
+  const JointIntegrand plain{set.integrands, [set](UnitCubeIntegral::UnitPoint points, std::span<double> values) {
+                               evaluate(set, points, values);
+                             }};
+  JointIntegrand all = with_importance(plain, o.importance, limits);
+  return {std::move(all.outputs), set.texts, set.expression, std::move(all.f)};
+}
+
 // Fills the points, integrands and names of `found`. Returns the integrands of each point.
 IntegrandSets integrands_of(const IntegrateCommandOptions& o, IntegrateResults& found) {
-  mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
-  require_names(o);
+  mc::require(!o.foreign.dim || o.foreign.is_given(), "--dim is for a --command");
+  mc::require(!o.integrands.empty() || o.foreign.is_given(),
+              "integrate: name an integrand or give an expression; --list shows the names");
   IntegrandSets sets;
   found.points.clear();
   for (const SweepPoint& point : sweep_points(o.expression.settings)) {
     ExpressionContext context = o.expression;
     context.settings = point.settings;
-    sets.push_back(find_integrands(o.integrands, context));
-    const auto is_exact = [](const IntegrandSet& set) { return set.expression && set.expression->is_exact_sum(); };
-    mc::require(sets.back().dim() == sets.front().dim() && is_exact(sets.back()) == is_exact(sets.front()),
+    sets.push_back(integrand_set(o, context));
+    mc::require(sets.back().dim() == sets.front().dim() && sets.back().is_exact_sum() == sets.front().is_exact_sum(),
                 "--set: the sums of one value are sampled, those of another are not; sweep within {} terms",
                 ExpressionIntegral::summed_terms);
     found.points.push_back(point.swept);
@@ -272,7 +297,9 @@ IntegrandSets integrands_of(const IntegrateCommandOptions& o, IntegrateResults& 
   constexpr std::size_t most_integrals = 500;
   mc::require(sets.size() == 1 || found.integrands.size() <= most_integrals,
               "--set: {} integrals; at most {} are possible", found.integrands.size(), most_integrals);
-  if (!o.names.empty()) found.names = names_of(sets.front(), o.names);
+  const std::vector<std::string> given = given_names(o);
+  require_names(o.names, sets.front().texts.back() + 1);
+  if (!given.empty()) found.names = names_of(sets.front(), given);
   for (std::size_t i = 0; i < found.integrands.size() && !found.names.empty(); ++i)
     found.integrands[i].title = found.names[i % found.names.size()];
   mc::require(found.integrands.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
@@ -291,18 +318,14 @@ void add_derived(IntegrateResults& found, const std::vector<std::string>& names,
 }
 
 // Writes the table of a sweep, and draws it.
-void write_sweep(ResultWriter& results, const IntegrateResults& found, const std::filesystem::path& output,
-                 bool is_partial) {
-  if (output.empty()) return;
-  const std::filesystem::path folder = result_folder(output, "sweep.csv", is_partial);
-  results.write((folder / "sweep.csv").string(), false, sweep_csv(found));
-  results.write((folder / "sweep.gp").string(), false, sweep_script(found));
+void write_sweep(const IntegrateResults& found, const std::filesystem::path& folder) {
+  if (folder.empty()) return;
+  mc::write_file((folder / "sweep.csv").string(), sweep_csv(found));
+  mc::write_file((folder / "sweep.gp").string(), sweep_script(found));
   const auto known = [](const mc::Integral& r) { return std::isfinite(r.estimate.std_error); };
-  results.attempt([&] {
-    if (std::none_of(found.results.outputs.begin(), found.results.outputs.end(), known)) remove_plot(folder, "sweep");
-    else if (!draw_plot(folder, "sweep", {"sweep.csv"}))
-      warn("gnuplot is not installed; data and script are written, but no plot");
-  });
+  if (std::none_of(found.results.outputs.begin(), found.results.outputs.end(), known)) remove_plot(folder, "sweep");
+  else if (!draw_plot(folder, "sweep", {"sweep.csv"}))
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and script are written, but no plot\n");
   fmt::print("data and plot: {}\n", folder.string());
 }
 
@@ -329,8 +352,12 @@ int exit_code_of(const IntegrateResults& found, const mc::IntegrateOptions& o) {
     const double wanted = std::max(o.abs_error, o.rel_error * std::abs(r.estimate.value));
     return r.stop == mc::StopReason::converged || r.estimate.std_error <= wanted;
   });
-  if (!reached) fmt::print("the wanted error was not reached; raise --max-calls\n");
-  return reached ? exit_ok : exit_failed;
+  if (reached) return exit_ok;
+  const auto may_be_zero = [](const mc::Integral& r) { return r.interval.lo <= 0 && r.interval.hi >= 0; };
+  if (o.abs_error == 0 && std::any_of(outputs, end, may_be_zero))
+    fmt::print("the wanted error was not reached: it is relative to an integral that may be 0; give --abs-error\n");
+  else fmt::print("the wanted error was not reached; raise --max-calls\n");
+  return exit_failed;
 }
 
 int run_integrate(const IntegrateCommandOptions& o) {
@@ -340,23 +367,23 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   mc::require(o.save_density != "-", "--save-density: a density goes to a file; name one");
   if (!o.save_density.empty()) mc::require_writable(o.save_density);
+  mc::require(o.json.empty() || o.json != o.save_density,
+              "--json and --save-density would both write '{}'; name another file", o.json);
   const ResultFile json(o.json);
   IntegrateResults found{.integrands = {}, .results = {}};
   const IntegrandSets sets = integrands_of(o, found);
   const IntegrandSet& set = sets.front();
   for (const std::string& expression : o.derived)
-    mc::with_context("--derive", [&] { parse_function(expression, names_of(set, o.names)); });
+    mc::with_context("--derive", [&] { parse_function(expression, names_of(set, given_names(o))); });
   const std::filesystem::path folder = o.output.empty() ? "" : mc::make_output_folder(o.output, "sweep.csv");
   const std::vector<double> wanted = probabilities(o.quantiles);
   if (!wanted.empty()) measure_of(set, "--quantiles");
   mc::IntegrateOptions settings = settings_of(o);
-  constexpr std::uint64_t least_of_sweep = 1 << 14;
-  if (found.is_sweep()) settings.max_calls = std::max(o.max_calls / sets.size(), std::min(o.max_calls, least_of_sweep));
   Histogram histogram;
   if (!o.histogram.empty()) histogram = make_histogram(o.histogram, set, o.seed);
   ProgressLine progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
-    progress.show(double(p.calls) / double(settings.max_calls),
+    progress.show(double(p.calls) / double(o.max_calls),
                   fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
   };
   const Interrupt interrupt;
@@ -386,28 +413,21 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
 
-  for (mc::Integral& integral : found.results.outputs) { // a call of a sweep evaluates all of its points
-    integral.calls *= sets.size();
-    for (mc::IntegrateRound& round : integral.rounds) round.calls *= sets.size();
-  }
-  add_derived(found, names_of(set, o.names), o.derived);
-  ResultWriter results;
+  add_derived(found, names_of(set, given_names(o)), o.derived);
   if (found.is_sweep()) {
     fmt::print("{}{}", sweep_table(found), calls_text(found));
-    write_sweep(results, found, folder, cancelled);
+    write_sweep(found, folder);
   } else
     fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found),
                quantile_table(found));
-  if (json.is_wanted()) json.write(results, cancelled, integrals_json(found, o.command, o.seed));
+  if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
-    mc::require(r.density != nullptr || cancelled,
+    mc::require(r.density != nullptr,
                 "--save-density: nothing was learned by {} in {} calls, and {} is not written; "
                 "--method vegas or tree always learns",
                 name(r.method), r.calls, o.save_density);
-    if (r.density)
-      results.write(o.save_density, cancelled, [&](const std::string& file) { mc::save_density(file, *r.density); });
+    mc::save_density(o.save_density, *r.density);
   }
-  results.finish();
   return cancelled ? exit_interrupted : exit_code_of(found, settings);
 }
 

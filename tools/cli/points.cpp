@@ -7,9 +7,7 @@
 #include <sampling/point_sets.h>
 #include <terminal/columns.h>
 #include <terminal/interrupt.h>
-#include <terminal/message.h>
 #include <terminal/progress.h>
-#include <terminal/result_writer.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -31,7 +29,8 @@ using nlohmann::json;
 
 struct PointsCommandOptions {
   std::string set;
-  std::string file; ///< a user's own points instead
+  std::string file;  ///< a user's own points instead
+  std::string scale; ///< the range of their coordinates; empty: [0, 1)
   bool list = false;
   std::uint64_t count = 1024;
   int dim = 2;
@@ -67,10 +66,15 @@ std::string bounds(const mc::StarDiscrepancy& s) {
 
 void print(const QualityRow& r, int dim, std::size_t sets) {
   line("", "this set", fmt::format("mean of {}", sets), "random", "jittered");
-  line("L2-star discrepancy", number(r.first_l2_star), number(r.l2_star), number(r.random.l2_star),
-       number(r.jittered.l2_star));
-  line("periodic L2 discrepancy", number(r.first_l2_periodic), number(r.l2_periodic), number(r.random.l2_periodic),
-       number(r.jittered.l2_periodic));
+  const auto l2 = [&](const char* name, double mc::L2Discrepancies::*value) {
+    line(name, number(r.first_l2.*value), number(r.l2.*value), number(r.random.l2.*value),
+         number(r.jittered.l2.*value));
+  };
+  l2("L2-star discrepancy", &mc::L2Discrepancies::star);
+  l2("periodic L2 discrepancy", &mc::L2Discrepancies::periodic);
+  l2("centered discrepancy", &mc::L2Discrepancies::centered);
+  l2("wrap-around discrepancy", &mc::L2Discrepancies::wraparound);
+  l2("mixture discrepancy", &mc::L2Discrepancies::mixture);
   const bool exact = r.star.exact() && r.random.star.exact() && r.jittered.star.exact();
   line(exact ? "star discrepancy" : "star discrepancy, bounds", bounds(r.star), "", bounds(r.random.star),
        bounds(r.jittered.star));
@@ -86,8 +90,9 @@ void print(const QualityRow& r, int dim, std::size_t sets) {
   else fmt::print("no t: {}\n", std::has_single_bit(r.n) ? "too many boxes" : "the number of points is no power of 2");
   fmt::print("{}",
              wrapped(fmt::format("Means of L2 discrepancies are root mean squares. For random and jittered points the "
-                                 "star discrepancy is the mean of {} sets, the distance and t of {}; the other "
-                                 "values are expectations by formula.",
+                                 "star discrepancy is the mean of {} sets, the distance and t of {}, as are centered, "
+                                 "wrap-around and mixture discrepancy of jittered points; the other values are "
+                                 "expectations by formula.",
                                  reference_stars, reference_sets),
                      80));
 }
@@ -117,7 +122,9 @@ struct QualityRun {
 QualityRun measure_all(const PointsCommandOptions& o, int& dim) {
   QualityRun m;
   if (!o.file.empty()) {
-    const CsvTable table = read_points(o.file, 2, most_points, most_dimensions);
+    const PointsFile read = read_points(o.file, {2, most_points, most_dimensions, o.scale});
+    const CsvTable& table = read.table;
+    if (!read.note.empty()) fmt::print("{}\n", read.note);
     dim = static_cast<int>(table.columns);
     m.sets = {table.values};
     const StarDiscrepancyBudget work = star_discrepancy_budget(m.sets[0].size() / table.columns, table.columns, true);
@@ -144,14 +151,13 @@ QualityRun measure_all(const PointsCommandOptions& o, int& dim) {
 }
 
 void write(const PointsCommandOptions& o, const std::filesystem::path& folder, const QualityRun& m, int dim) {
-  ResultWriter results;
   const mc::PointList first{m.sets[0], static_cast<std::size_t>(dim)};
   const std::string title = fmt::format("{}, {} dimensions", o.file.empty() ? o.set : std::string("points"), dim);
   const auto file = [&](const char* name) { return (folder / name).string(); };
-  results.write(file("points.csv"), false, points_csv(first));
-  results.write(file("quality.csv"), false, quality_csv(m.rows));
-  results.write(file("spectrum.csv"), false, spectrum_csv(m.rows));
-  if (dim >= 2) results.write(file("points.svg"), false, projections_svg(first));
+  mc::write_file(file("points.csv"), points_csv(first));
+  mc::write_file(file("quality.csv"), quality_csv(m.rows));
+  mc::write_file(file("spectrum.csv"), spectrum_csv(m.rows));
+  if (dim >= 2) mc::write_file(file("points.svg"), projections_svg(first));
   else remove_plot(folder, "points");
   json all = {{"command", o.command},
               {"commit", commit},
@@ -163,13 +169,10 @@ void write(const PointsCommandOptions& o, const std::filesystem::path& folder, c
               {"rows", json::array()}};
   for (const QualityRow& r : m.rows) all["rows"].push_back(to_json(r));
   if (m.interrupted) all["interrupted"] = true;
-  results.write(file("quality.json"), false, json_text(all));
-  results.write(file("quality.gp"), false, quality_script(title, m.rows));
-  results.attempt([&] {
-    if (!draw_plot(folder, "quality", {"quality.csv", "spectrum.csv"}))
-      warn("gnuplot is not installed; data and scripts are written, but no plots");
-  });
-  results.finish();
+  mc::write_file(file("quality.json"), json_text(all));
+  mc::write_file(file("quality.gp"), quality_script(title, m.rows));
+  if (!draw_plot(folder, "quality", {"quality.csv", "spectrum.csv"}))
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
 }
 
 std::vector<Option> rows(PointsCommandOptions& o) {
@@ -180,14 +183,12 @@ std::vector<Option> rows(PointsCommandOptions& o) {
            {"SET", "", &o.set, "Point set by name, see --list."},
            {"-n,--count", "N", &o.count, "Number of points, 2 to 32768. The curves lead from 16 to N.", false, {own}},
            {"-d,--dim", "N", &o.dim, "Dimensions, 1 to 16.", false, {own}},
-           input_file({"--points-file", "FILE", &o.file,
-                       "Measure the points of this file instead: one point a row, coordinates in [0, 1)."}),
-           output_folder({"-o,--output", "FOLDER", &o.output,
-                          "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg "
-                          "and .png, and "
-                          "spectrum.csv."},
-                         {"points.csv", "points.svg", "quality.csv", "quality.json", "quality.gp", "quality.svg",
-                          "quality.png", "spectrum.csv"}),
+           {"--points-file", "FILE", &o.file,
+            "Measure the points of this file instead: one point a row, coordinates in [0, 1)."},
+           {"--rescale", "LO:HI", &o.scale, rescale_help},
+           {"-o,--output", "FOLDER", &o.output,
+            "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg and .png, and "
+            "spectrum.csv."},
            {"--list", "", &o.list, "List the point sets, and stop."},
        }},
       {expert_options,
@@ -210,6 +211,7 @@ int run_points(const PointsCommandOptions& o) {
     return exit_ok;
   }
   mc::require(o.set.empty() != o.file.empty(), "points: give a point set (see --list) or --points-file");
+  mc::require(o.scale.empty() || !o.file.empty(), "points: --rescale is for a --points-file");
   mc::require(o.count >= 2 && o.count <= most_points, "points: -n {} must lie in [2, {}]", o.count, most_points);
   mc::require(o.dim >= 1 && o.dim <= most_dimensions, "points: -d {} must lie in [1, {}]", o.dim, most_dimensions);
   mc::require(o.randomisations >= 1 && o.randomisations <= 1000, "points: --randomisations {} must lie in [1, 1000]",
@@ -225,9 +227,8 @@ int run_points(const PointsCommandOptions& o) {
   if (dim > axes_drawn)
     fmt::print("points.svg shows the first {} of {} axes, {} of {} pairs\n", axes_drawn, dim,
                axes_drawn * (axes_drawn - 1) / 2, dim * (dim - 1) / 2);
-  const std::filesystem::path written = result_folder(folder, "quality.json", m.interrupted);
-  write(o, written, m, dim);
-  fmt::print("{}data and pictures: {}\n", m.interrupted ? "interrupted; " : "", written.string());
+  write(o, folder, m, dim);
+  fmt::print("{}data and pictures: {}\n", m.interrupted ? "interrupted; " : "", folder.string());
   return m.interrupted ? exit_interrupted : exit_ok;
 }
 
@@ -244,6 +245,8 @@ Subcommand points_subcommand() {
            {{"Measures",
              {{"discrepancy", "Largest (star) or root-mean-square (L2) difference between the share of points in "
                               "a box and its volume. Smaller is more even."},
+              {"centered, ...", "Centered, wrap-around and mixture discrepancy: also the uniformity of projections. "
+                                "SciPy prints their squares."},
               {"t of the net", "Least t for which the points are a (t, m, d)-net in base 2. Smaller is more even."},
               {"power", "Mean power of the spectrum at frequencies up to sqrt(N) / 2; 1 for independent points. "
                         "Smaller means smaller errors of smooth integrands."}}}}},

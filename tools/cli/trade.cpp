@@ -9,9 +9,7 @@
 #include <report/plot.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
-#include <terminal/message.h>
 #include <terminal/progress.h>
-#include <terminal/result_writer.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -203,11 +201,8 @@ std::vector<Option> rows(TradeCommandOptions& o) {
        "CPU seconds to spend: \"0.001,0.01\"; with --cost rays millions of rays.",
        false,
        {{"--error", "one of them asks for the cheapest method, the other for the most accurate one"}}},
-      output_folder({"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv."},
-                    {"trade.json", "trade.csv", "trade.gp", "trade.svg", "trade.png", "front.csv"}),
-      output_folder(
-          {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)."},
-          {"index.html"}),
+      {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv."},
+      {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)."},
   };
   common.options.insert(common.options.end(), own.begin(), own.end());
   OptionGroup scene = scene_group(o.scene);
@@ -220,7 +215,7 @@ std::vector<Option> rows(TradeCommandOptions& o) {
           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
       }};
-  return in_groups({common, expression_group(o.integral.expression), plugin_group(o.integral), scene, expert});
+  return in_groups({common, expression_group(o.integral.expression), foreign_group(o.integral.foreign), scene, expert});
 }
 
 /// The wanted errors and times.
@@ -291,24 +286,19 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
   if (exact) fmt::print("  every method is exact to rounding: there is no error to plot\n");
   for (const std::string& warning : {m.truth_warning, variance_warning(m)})
     if (!warning.empty()) fmt::print("  warning: {}\n", warning);
-  ResultWriter results;
-  const std::filesystem::path folder = result_folder(folders.data, "trade.json", m.interrupted);
-  results.write((folder / "trade.csv").string(), false, csv(all_points(m), m.cost));
-  results.write((folder / "front.csv").string(), false, csv(a.pareto_front, m.cost));
-  results.write((folder / "trade.json").string(), false, ordered_json_text(to_json(o, one)));
-  results.write((folder / "trade.gp").string(), false, script(one.target->integral.title, m, a));
-  results.attempt([&] {
-    if (!anything) remove_plot(folder, "trade");
-    else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
-      warn("gnuplot is not installed; data and scripts are written, but no plots");
-  });
+  const std::filesystem::path& folder = folders.data;
+  mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
+  mc::write_file((folder / "front.csv").string(), csv(a.pareto_front, m.cost));
+  mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
+  mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m, a));
+  if (!anything) remove_plot(folder, "trade");
+  else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   fmt::print("data and plots: {}\n", folder.string());
   if (!folders.page.empty()) {
-    const std::filesystem::path page = result_folder(folders.page, "index.html", m.interrupted);
-    write_convergence_page(results, page, trade_header(o.command), {one});
-    fmt::print("page: {}\n", (page / "index.html").string());
+    write_convergence_page(folders.page, trade_header(o.command), {one});
+    fmt::print("page: {}\n", (folders.page / "index.html").string());
   }
-  results.finish();
   const auto is_reached = [](const auto& f) { return !f.candidates.empty(); };
   const bool reached = std::all_of(a.by_error.begin(), a.by_error.end(), is_reached) &&
                        std::all_of(a.by_time.begin(), a.by_time.end(), is_reached);
@@ -352,8 +342,10 @@ int run_trade(const TradeCommandOptions& o) {
   mc::require(o.samplers.empty(), "trade: --samplers is for a scene (.xml); an integral has all");
   const Interrupt interrupt;
   const std::vector<IntegralTarget> targets = targets_of(o.integral);
-  mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
-  if (!o.integral.expression.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.expression);
+  const bool is_named = !o.integral.integrands.empty() || o.integral.foreign.is_given();
+  mc::require(targets.size() == 1 && is_named, "trade: name one integrand; --list shows them");
+  if (!o.integral.expression.domain.empty() && !o.integral.foreign.is_given())
+    refuse_constant(o.integral.integrands[0], o.integral.expression);
   const IntegralTarget& target = targets.front();
   const OutputFolders folders(o);
 

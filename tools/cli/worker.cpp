@@ -2,6 +2,8 @@
 
 #include <options/subcommand.h>
 #include <plugin/command.h>
+#include <plugin/command_integrand.h>
+#include <plugin/foreign_density.h>
 #include <plugin/integrands.h>
 #include <plugin/plugin.h>
 #include <plugin/worker.h>
@@ -15,8 +17,9 @@ namespace {
 nlohmann::json run_task(const nlohmann::json& request, CallMonitor& monitor) {
   const std::string task = request["task"];
   if (task == "command") return run_command_task(request, monitor);
-  if (task == "integrand" || task == "describe integrands" || task == "check integrand")
-    return run_integrand_task(request, monitor);
+  if (task.ends_with("densities") || task.starts_with("density")) return run_density_task(request, monitor);
+  if (task == "integrand command") return run_command_integrand_task(request, monitor);
+  if (task.find("integrand") != task.npos) return run_integrand_task(request, monitor);
   return run_plugin_task(request, monitor);
 }
 

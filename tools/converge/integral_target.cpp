@@ -1,21 +1,31 @@
 #include <converge/integral_target.h>
+#include <process/cpu_time.h>
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
 #include <mc/random/hash.h>
 
 #include <algorithm>
-#include <ctime>
 #include <memory>
 
 namespace carlo {
 
 namespace {
 
-double thread_cpu_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+// estimate(seed, seconds) adds seconds of other processes.
+template <class Estimator> Replicates replicates(const ReplicateTask& task, const Estimator& estimate) {
+  Replicates r;
+  for (auto* numbers : {&r.values, &r.calls, &r.seconds}) numbers->resize(task.count);
+  mc::parallel_for(task.count, task.threads, [&](std::size_t i) {
+    if (task.cancel && *task.cancel) return;
+    const double start = thread_cpu_seconds();
+    double elsewhere = 0;
+    const MethodEstimate s = estimate(mc::hash(task.seed, task.n, task.first + i), elsewhere);
+    r.values[i] = s.value;
+    r.calls[i] = s.calls;
+    r.seconds[i] = thread_cpu_seconds() - start + elsewhere;
+  });
+  return r;
 }
 
 } // namespace
@@ -46,17 +56,12 @@ void refuse_scene_among(const std::vector<std::string>& words) {
 Replicates run_replicates(const UnitCubeIntegral& given, const ReplicateTask& task) {
   UnitCubeIntegral e = given;
   if (task.method->scalar_calls) e.f_batch = {};
-  Replicates r;
-  for (auto* numbers : {&r.values, &r.calls, &r.seconds}) numbers->resize(task.count);
-  mc::parallel_for(task.count, task.threads, [&](std::size_t i) {
-    if (task.cancel && *task.cancel) return;
-    const double start = thread_cpu_seconds();
-    const MethodEstimate s = task.method->estimate(e, task.n, mc::hash(task.seed, task.n, task.first + i));
-    r.values[i] = s.value;
-    r.calls[i] = s.calls;
-    r.seconds[i] = thread_cpu_seconds() - start;
-  });
-  return r;
+  return replicates(task, [&](std::uint64_t seed, double&) { return task.method->estimate(e, task.n, seed); });
+}
+
+Replicates run_replicates(const std::function<UnitCubeIntegral(double& seconds)>& bind, const ReplicateTask& task) {
+  return replicates(
+      task, [&](std::uint64_t seed, double& seconds) { return task.method->estimate(bind(seconds), task.n, seed); });
 }
 
 IntegralTarget in_process_target(UnitCubeIntegral integral) {

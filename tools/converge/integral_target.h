@@ -47,4 +47,8 @@ void refuse_scene_among(const std::vector<std::string>& words);
 
 Replicates run_replicates(const UnitCubeIntegral& e, const ReplicateTask& task);
 
+/// The same for an integrand that other processes evaluate. bind(seconds) returns the integrand for one replicate; it
+/// adds the CPU seconds of these processes to `seconds`.
+Replicates run_replicates(const std::function<UnitCubeIntegral(double& seconds)>& bind, const ReplicateTask& task);
+
 } // namespace carlo

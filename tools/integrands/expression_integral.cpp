@@ -286,6 +286,18 @@ bool ExpressionIntegral::has_name(std::string_view name) const {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
 
+std::vector<VariableBounds> ExpressionIntegral::coordinate_bounds() const {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<VariableBounds> bounds;
+  for (const Step& s : steps_) {
+    if (s.kind == StepKind::interval && s.is_constant())
+      bounds.push_back({variables_[s.variable].name, s.first.value, s.second.value});
+    else if (s.kind == StepKind::interval || s.kind == StepKind::normal || s.kind == StepKind::coordinate_integer)
+      bounds.push_back({variables_[s.variable].name, unknown, unknown});
+  }
+  return bounds;
+}
+
 std::optional<double> ExpressionIntegral::value_at(std::string_view variable, double u) const {
   for (const Step& s : steps_) {
     const bool is_mapped = s.kind == StepKind::interval || s.kind == StepKind::normal;
@@ -316,6 +328,7 @@ std::vector<UnitCubeIntegral> integrands_of(const std::shared_ptr<const Expressi
                        .min_fit_n = 0,
                        .f = [integral, i](std::span<const double> u) { return integral->evaluate(u, i); }};
     e.underflows_at = [integral, i](std::span<const double> u) { return integral->underflows_at(u, i); };
+    e.bounds = integral->coordinate_bounds();
     e.describe_point = [integral](std::span<const double> u) { return integral->describe_point(u); };
     all.push_back(std::move(e));
   }

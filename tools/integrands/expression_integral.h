@@ -64,6 +64,8 @@ class ExpressionIntegral {
   double uniform_measure(std::string_view option) const;
   /// Whether a variable, a let or a setting has this name.
   bool has_name(std::string_view name) const;
+  /// The variable of each coordinate of the cube. One without constant bounds has the bounds NaN.
+  std::vector<VariableBounds> coordinate_bounds() const;
   /// The value of a variable for a coordinate of the cube; nothing where its parameters are not constant, or where it
   /// is summed.
   std::optional<double> value_at(std::string_view variable, double u) const;

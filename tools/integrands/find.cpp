@@ -69,8 +69,26 @@ IntegrandSet find_integrands(const std::vector<std::string>& texts, const Expres
   return set;
 }
 
+void evaluate(const IntegrandSet& set, UnitCubeIntegral::UnitPoint points, std::span<double> values) {
+  if (set.f) return set.f(points, values);
+  const std::size_t outputs = set.integrands.size(), dim = static_cast<std::size_t>(set.dim());
+  for (std::size_t i = 0; i < values.size() / outputs; ++i) {
+    const UnitCubeIntegral::UnitPoint u = points.subspan(i * dim, dim);
+    const std::span<double> at = values.subspan(i * outputs, outputs);
+    if (set.expression) set.expression->evaluate(u, at);
+    else
+      for (std::size_t k = 0; k < outputs; ++k) at[k] = set.integrands[k].f(u);
+  }
+}
+
 double measure_of(const IntegrandSet& set, std::string_view option) {
-  return set.expression ? set.expression->uniform_measure(option) : 1;
+  if (set.expression) return set.expression->uniform_measure(option);
+  double volume = 1;
+  for (const VariableBounds& s : set.integrands.front().bounds) {
+    mc::require(s.is_finite(), "{}: the domain is infinite along {}; values need a finite volume", option, s.name);
+    volume *= s.hi - s.lo;
+  }
+  return volume;
 }
 
 } // namespace carlo

@@ -1,6 +1,8 @@
 #pragma once
 /// Integrals over the unit cube, and the textbook integrals with their true values.
 
+#include <integrands/variable_bounds.h>
+
 #include <functional>
 #include <span>
 #include <string>
@@ -39,6 +41,8 @@ struct UnitCubeIntegral {
   std::function<void(UnitPoint points, std::span<double> values)> f_batch = {};
   std::function<std::string(UnitPoint u)> describe_point =
       {}; ///< "x = 0.5, y = 1": the point in the original domain; may be empty
+  /// Variables that map_to_bounds takes from u; NaN where another map does. Empty: u itself.
+  std::vector<VariableBounds> bounds = {};
   /// Whether the value at u underflows to 0 although the value of its expression does not; may be empty.
   std::function<bool(UnitPoint u)> underflows_at = {};
 };

@@ -67,4 +67,13 @@ inline MappedPoint map_to_bounds(const VariableBounds& s, double u) { return map
 ///   -inf..inf: j and -1 - j with half of that probability each.
 MappedPoint map_to_integers(double lo, double hi, double u);
 
+/// The u that map_to_bounds maps to x; outside of [0,1] for an x beyond finite bounds.
+inline double unmap_from_bounds(const VariableBounds& s, double x) {
+  if (s.is_finite()) return (x - s.lo) / (s.hi - s.lo);
+  if (std::isfinite(s.lo)) return (x - s.lo) / (1 + (x - s.lo));
+  if (std::isfinite(s.hi)) return 1 / (1 + (s.hi - x));
+  const double h = std::hypot(1, 2 * x);
+  return x < 0 ? (1 + 1 / (h - 2 * x)) / (2 * (1 + h)) : 0.5 + x / (1 + h);
+}
+
 } // namespace carlo

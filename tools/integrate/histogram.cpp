@@ -1,3 +1,4 @@
+#include <integrands/box_map.h>
 #include <integrate/histogram.h>
 
 #include <mc/core/error.h>
@@ -120,19 +121,21 @@ template <class ValueAt> std::vector<double> edges_in_cube(std::size_t bins, Val
   return edges;
 }
 
-Histogram of_named(const UnitCubeIntegral& e, const Request& r) {
-  std::optional<std::size_t> axis;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(e.dim); ++d)
-    if (r.observable == fmt::format("u{}", d)) axis = d;
-  mc::require(axis.has_value(), "--histogram: there is no variable '{}'; use one of u0 to u{}, or value", r.observable,
-              e.dim - 1);
+Histogram of_variable(const UnitCubeIntegral& e, const Request& r) {
+  const std::vector<VariableBounds> bounds = e.bounds.empty() ? unit_cube_bounds(e.dim) : e.bounds;
+  const auto found =
+      std::find_if(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == r.observable; });
+  mc::require(found != bounds.end(), "--histogram: there is no variable '{}'; use one of {} to {}, or value",
+              r.observable, bounds.front().name, bounds.back().name);
+  const auto axis = static_cast<std::size_t>(found - bounds.begin());
+  const VariableBounds side = *found;
   const std::vector<double> edges = r.range ? edges_between(r.range->first, r.range->second, r.bins)
-                                            : edges_in_cube(r.bins, [](double u) { return u; });
+                                            : edges_in_cube(r.bins, [&](double u) { return map_to_bounds(side, u).x; });
   return {named_bins(r.observable, edges),
           [=, f = e.f](std::span<const double> u, std::span<double> values) {
             std::fill(values.begin(), values.end(), 0.0);
             values[0] = f(u);
-            values[1 + bin_of(edges, u[*axis])] = values[0];
+            values[1 + bin_of(edges, map_to_bounds(side, u[axis]).x)] = values[0];
           },
           r.range.has_value()};
 }
@@ -165,7 +168,8 @@ Histogram of_expression(const std::shared_ptr<ExpressionIntegral>& integral, con
 Histogram make_histogram(const std::string& option, const IntegrandSet& set, std::uint64_t seed) {
   const Request r = parse(option);
   const bool by_value = r.observable == "value" && !r.range && !(set.expression && set.expression->has_name("value"));
-  if (!by_value) return set.expression ? of_expression(set.expression, r, seed) : of_named(set.integrands.front(), r);
+  if (!by_value)
+    return set.expression ? of_expression(set.expression, r, seed) : of_variable(set.integrands.front(), r);
   return bins_by_value(set.integrands.front(), measure_of(set, "--histogram"), r.bins, seed);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// The Cornell box of the books, rendered with the samplers that their chapters print and with correct ones.
 
-#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,9 +20,8 @@ struct CornellBox {
 /// many paths.
 ///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50
 ///            bounces.
-///   result : bitwise equal for any number of threads. Empty where `cancel` became true before the end.
+///   result : bitwise equal for any number of threads.
 ///   Source : [Shirley16].
-std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads,
-                                      const std::atomic<bool>* cancel = nullptr);
+std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads);
 
 } // namespace carlo

@@ -5,7 +5,6 @@
 #include <options/integral_options.h>
 #include <options/pixels.h>
 #include <picture/picture.h>
-#include <plugin/integrands.h>
 #include <terminal/progress.h>
 
 #include <mc/core/error.h>
@@ -100,29 +99,11 @@ std::vector<Option> integral_option_rows(IntegralOptions& o) {
   };
 }
 
-OptionGroup plugin_group(IntegralOptions& o) {
-  return {"Your own integrands",
-          {
-              input_file({"--plugin",
-                          "FILE",
-                          &o.plugin,
-                          "Take the integrands of this shared object, compiled against <mc/check/plugin.h>.",
-                          false,
-                          {{"--domain", "a plugin states its own bounds"}}}),
-              {"--timeout", "SECONDS", &o.timeout,
-               "Wall-clock time for the repetitions of a plugin at one N. Default: 60."},
-              {"--memory", "GIB", &o.memory, "Memory for a plugin, in GiB. Default: 4."},
-          }};
-}
-
 std::vector<IntegralTarget> targets_of(const IntegralOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
-  ResourceLimits limits = resource_limits(o.timeout, o.memory, !o.plugin.empty());
-  if (!o.plugin.empty()) {
-    mc::require(o.expression.domain.empty(), "--domain is for an expression; a plugin states its own bounds");
-    limits.reduce_option = "--max-n";
-    return plugin_targets(o.plugin, o.integrands, {.limits = limits});
-  }
+  resource_limits(o.foreign.timeout, o.foreign.memory, o.foreign.is_given());
+  mc::require(!o.foreign.dim || o.foreign.is_given(), "--dim is for a --command");
+  if (o.foreign.is_given()) return foreign_targets(o.foreign, o.integrands, o.expression);
   if (!o.expression.domain.empty())
     for (const std::string& word : o.integrands)
       if (is_domain(word)) find_integrand(word, o.expression); // throws: bounds are one argument
@@ -173,8 +154,9 @@ void refuse_scene_options(const SceneOptions& o) {
 void refuse_integral_options(const IntegralOptions& o) {
   IntegralOptions none;
   none.integrands = o.integrands;
-  mc::require(o == none, "--domain, --plugin, --timeout, --memory and --max-n are for an integrand; a scene (.xml) "
-                         "takes --max-spp and --size");
+  mc::require(o == none,
+              "--domain, --plugin, --command, --dim, --timeout, --memory and --max-n are for an integrand; a "
+              "scene (.xml) takes --max-spp and --size");
 }
 
 bool is_scene(const std::vector<std::string>& words) { return words.size() == 1 && words[0].ends_with(".xml"); }

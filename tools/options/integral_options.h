@@ -3,6 +3,7 @@
 
 #include <converge/picture_measurement.h>
 #include <integrands/expression_integral.h>
+#include <options/foreign_options.h>
 #include <options/subcommand.h>
 
 #include <optional>
@@ -14,20 +15,17 @@ namespace carlo {
 struct IntegralOptions {
   std::vector<std::string> integrands; ///< names, groups, or an expression
   ExpressionContext expression;        ///< domain and names of an expression
-  std::string plugin;                  ///< shared object to load integrands from instead
-  std::optional<double> timeout;       ///< seconds for the plugin's process, see ResourceLimits
-  std::optional<double> memory;        ///< GiB for the plugin's process
+  ForeignOptions foreign;              ///< integrands of the user's own code instead
   std::uint64_t max_n = 1 << 18;       ///< evaluations at most
   bool list = false;
   bool operator==(const IntegralOptions&) const = default;
 };
 
-/// Rows for the common options, and the options of plugins.
+/// Rows for the common options.
 std::vector<Option> integral_option_rows(IntegralOptions& o);
-OptionGroup plugin_group(IntegralOptions& o);
 
 /// The named integrands; without a name the group books.
-///   throws : Error for an unknown name, a bad number, and as find_integrand and plugin_targets.
+///   throws : Error for an unknown name, a bad number, and as find_integrand and foreign_targets.
 std::vector<IntegralTarget> targets_of(const IntegralOptions& o);
 
 /// Prints the integrands and the methods.

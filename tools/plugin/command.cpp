@@ -1,7 +1,7 @@
 #include <input/parsed_domain.h>
 #include <plugin/check_request.h>
 #include <plugin/command.h>
-#include <process/child.h>
+#include <plugin/program.h>
 #include <report/report_json.h>
 
 #include <mc/check/laws.h>
@@ -10,15 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <bit>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -33,20 +27,11 @@ namespace {
 
 using Rows = std::vector<double>;
 
-// For a program that may have run out of memory: "; it held 0.97 GiB of memory of the 1 that --memory allows".
-std::string near_limit(double peak) {
-  rlimit memory{};
-  if (getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return {};
-  const double most = static_cast<double>(memory.rlim_cur);
-  if (!(peak >= 0.9 * most)) return {};
-  return fmt::format("; it held {:.3g} GiB of memory of the {:g} that --memory allows", peak / 0x1p30, most / 0x1p30);
-}
-
-// The running program, which receives questions in batches of rows.
-class Program {
+// A program that samples a distribution.
+class SamplingProgram {
  public:
-  Program(const std::string& command, std::size_t uniforms, std::size_t columns, CallMonitor& monitor)
-      : child_({{"/bin/sh", "-c", command}}), uniforms_(uniforms), columns_(columns), monitor_(monitor) {}
+  SamplingProgram(const std::string& command, std::size_t uniforms, std::size_t columns, CallMonitor& monitor)
+      : program_(command, monitor), uniforms_(uniforms), columns_(columns) {}
 
   std::size_t uniforms() const { return uniforms_; }
   std::size_t columns() const { return columns_; }
@@ -55,54 +40,14 @@ class Program {
   Rows pdf(const Rows& x) { return ask("pdf", "x", x, columns_, 1); }
 
  private:
-  static constexpr std::size_t batch = 4096; // rows; small enough that neither side blocks on a full pipe
-
   Rows ask(const char* what, const char* argument, const Rows& in, std::size_t width, std::size_t answer_width) {
-    static_assert(std::endian::native == std::endian::little);
-    Rows out;
-    out.reserve(in.size() / width * answer_width);
-    for (std::size_t at = 0; at < in.size(); at += batch * width) {
-      const std::size_t n = std::min(batch, (in.size() - at) / width);
-      const std::size_t more = child_.available_bytes(); // extra bytes would be read as part of the next answer
-      mc::require(more == 0, "it wrote {} bytes more than the answer; it must write nothing else to standard output",
-                  more);
-      monitor_.enter(what, argument, in.data() + at,
-                     static_cast<int>(std::min<std::size_t>(width, CallMonitor::max_arguments)));
-      // A single write: for single points, system calls dominate the cost.
-      std::string question = fmt::format("{} {} {}\n", what, n, width);
-      question.append(reinterpret_cast<const char*>(in.data() + at), n * width * sizeof(double));
-      if (!write_all(child_.input(), question.data(), question.size())) ended(what);
-      read(what, out, n * answer_width);
-      monitor_.leave();
-    }
+    Rows out(in.size() / width * answer_width);
+    program_.ask(what, argument, in, width, out);
     return out;
   }
 
-  void read(const char* what, Rows& out, std::size_t count) {
-    const std::size_t before = out.size();
-    out.resize(before + count);
-    char* to = reinterpret_cast<char*>(out.data() + before);
-    for (std::size_t left = count * sizeof(double); left > 0;) {
-      if (!child_.has_output()) ended(what);
-      const ssize_t n = ::read(child_.output(), to, left);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) ended(what);
-      to += n;
-      left -= static_cast<std::size_t>(n);
-      monitor_.answered(count - left / sizeof(double), count);
-    }
-  }
-
-  [[noreturn]] void ended(const char* what) {
-    monitor_.leave();
-    const int code = child_.wait();
-    throw mc::Error(fmt::format("the program ended with code {} instead of answering '{}'{}", code, what,
-                                near_limit(child_.peak_memory())));
-  }
-
-  ChildProcess child_;
+  Program program_;
   std::size_t uniforms_, columns_;
-  CallMonitor& monitor_;
 };
 
 // The first `width` numbers of each array as one row.
@@ -116,7 +61,7 @@ template <class Arrays> Rows rows_of(const Arrays& arrays, std::size_t width) {
 // The program's sampler on a domain; it draws samples in batches.
 class CommandOnDomain {
  public:
-  CommandOnDomain(const std::shared_ptr<Program>& program, const ParsedDomain& domain)
+  CommandOnDomain(const std::shared_ptr<SamplingProgram>& program, const ParsedDomain& domain)
       : program_(program), domain_(domain) {}
 
   std::vector<std::optional<AnyDistribution::Sample>> sample(std::span<const AnyDistribution::Uniforms> u) const {
@@ -142,7 +87,7 @@ class CommandOnDomain {
   }
 
  private:
-  std::shared_ptr<Program> program_;
+  std::shared_ptr<SamplingProgram> program_;
   ParsedDomain domain_;
 };
 
@@ -156,7 +101,7 @@ double time_of(const CommandOnDomain& command, const AnyDistribution& s) {
          static_cast<double>(u.size());
 }
 
-AnyDistribution plugin_distribution(const std::shared_ptr<Program>& program, const ParsedDomain& domain) {
+AnyDistribution plugin_distribution(const std::shared_ptr<SamplingProgram>& program, const ParsedDomain& domain) {
   const CommandOnDomain command(program, domain);
   AnyDistribution s;
   s.domain = domain.chart;
@@ -173,7 +118,7 @@ AnyDistribution plugin_distribution(const std::shared_ptr<Program>& program, con
 }
 
 // The domain, with charts of infinite intervals centred on pilot samples.
-ParsedDomain charted(Program& program, const std::string& text, std::uint64_t seed) {
+ParsedDomain charted(SamplingProgram& program, const std::string& text, std::uint64_t seed) {
   mc::Pcg random(mc::hash(seed, 42));
   Rows u(1000 * program.uniforms());
   for (double& one : u) one = random.uniform<double>();
@@ -189,11 +134,10 @@ ParsedDomain charted(Program& program, const std::string& text, std::uint64_t se
 } // namespace
 
 json run_command_task(const json& request, CallMonitor& monitor) {
-  std::signal(SIGPIPE, SIG_IGN); // a write to a program that has ended then returns an error
   const std::string text = request["domain"];
   const auto program =
-      std::make_shared<Program>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
-                                parse_domain(text).columns.size(), monitor);
+      std::make_shared<SamplingProgram>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
+                                        parse_domain(text).columns.size(), monitor);
   auto o = mc::with_statistics(mc::LawOptions(), requested_options(request));
   o.max_evaluations = 1'000'000; // each evaluation is an exchange with the program
   const ParsedDomain domain = charted(*program, text, o.seed);

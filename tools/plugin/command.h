@@ -1,15 +1,12 @@
 #pragma once
 /// Samplers in any language, as a program that answers over pipes.
 ///
-/// Protocol: carlo writes questions to the program's standard input, each a line followed by numbers. It reads the
-/// answer from the program's standard output, which contains numbers only. Numbers are IEEE doubles of 8 bytes, least
-/// significant byte first.
+/// Questions, in the protocol of program.h:
 ///   "sample N K\n" and N K numbers : N points u of [0,1)^K. Answer: N C numbers, the samples x, where C is the number
 ///                                    of columns of --domain.
 ///   "pdf N C\n" and N C numbers    : N points x of the domain. Answer: N numbers, the densities; for discrete outcomes
 ///                                    their probabilities.
-/// The program answers each question before it reads the next, flushes, and ends at the end of its input. Equal
-/// questions have equal answers. tests/tools/commands/sampler.py is an example in 30 lines.
+/// tests/tools/commands/sampler.py is an example in 30 lines.
 
 #include <plugin/worker.h>
 

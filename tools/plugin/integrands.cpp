@@ -1,16 +1,17 @@
+#include <integrands/box_map.h>
+#include <plugin/foreign_rows.h>
 #include <plugin/integrands.h>
 #include <plugin/plugin.h>
+#include <plugin/plugin_integrand.h>
+#include <process/cpu_time.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
-#include <mc/random/uniform.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -21,150 +22,80 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_dimensions = 64; // load_plugin enforces it
-
-// The box over which an integrand is integrated.
-struct Bounds {
-  std::vector<double> lo, hi;
-
-  explicit Bounds(const mc_integrand& f)
-      : lo(static_cast<std::size_t>(f.dim), 0.0), hi(static_cast<std::size_t>(f.dim), 1.0) {
-    if (f.lo) lo.assign(f.lo, f.lo + f.dim);
-    if (f.hi) hi.assign(f.hi, f.hi + f.dim);
+json describe(const mc_integrand& f) {
+  json one = {{"name", f.name},
+              {"title", f.title ? f.title : f.name},
+              {"dim", unit_dimension(f)},
+              {"batch", f.eval_many != nullptr},
+              {"has_density", f.sample != nullptr},
+              {"outputs", json::array()},
+              {"lo", json::array()},
+              {"hi", json::array()}};
+  for (std::size_t k = 0; k < output_count(f); ++k)
+    one["outputs"].push_back({{"name", output_name(f, k)}, {"truth", f.has_truth ? json(truth_of(f, k)) : json()}});
+  for (int k = 0; k < f.dim; ++k) {
+    one["lo"].push_back(f.lo ? f.lo[k] : 0);
+    one["hi"].push_back(f.hi ? f.hi[k] : 1);
   }
-  double volume() const {
-    double product = 1;
-    for (std::size_t k = 0; k < lo.size(); ++k) product *= hi[k] - lo[k];
-    return product;
-  }
-  double at(std::size_t k, double u) const { return lo[k] * (1 - u) + hi[k] * u; }
-};
+  return one;
+}
 
-// Runs only in the child. The monitor records every call.
-UnitCubeIntegral experiment_of(const mc_integrand& f, CallMonitor& monitor) {
-  const Bounds bounds(f);
+// The integrands with these names, or all; each with its index.
+std::vector<json> described(const std::string& path, const std::vector<std::string>& names,
+                            const WorkerOptions& worker) {
+  const json all = call_worker({{"task", "describe integrands"}, {"who", path}}, worker);
+  mc::require(!all.empty(), "{}: it contains distributions but no integrands; see carlo validate --plugin", path);
+  std::vector<std::string> known;
+  for (const json& one : all) known.push_back(one["name"]);
+  for (const std::string& name : names)
+    mc::require(std::find(known.begin(), known.end(), name) != known.end(), "{}: unknown integrand '{}'{}; it holds {}",
+                path, name, mc::did_you_mean(name, known), fmt::join(known, ", "));
+  std::vector<json> chosen;
+  for (std::size_t index = 0; index < known.size(); ++index) {
+    if (!names.empty() && std::find(names.begin(), names.end(), known[index]) == names.end()) continue;
+    chosen.push_back(all[index]);
+    chosen.back()["index"] = index;
+  }
+  return chosen;
+}
+
+UnitCubeIntegral integral_of(const std::string& path, const json& one, std::size_t output) {
+  const json& described = one["outputs"][output];
   UnitCubeIntegral e;
-  e.name = f.name;
-  e.dim = f.dim;
-  e.truth = f.has_truth ? f.truth : std::numeric_limits<double>::quiet_NaN();
-  e.describe_point = [bounds](UnitCubeIntegral::UnitPoint u) {
-    std::string text;
-    for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", bounds.at(k, u[k]));
-    return "x = (" + text + ")";
-  };
-  e.f = [f, bounds, &monitor](UnitCubeIntegral::UnitPoint u) {
-    std::array<double, most_dimensions> x;
-    for (std::size_t k = 0; k < u.size(); ++k) x[k] = bounds.at(k, u[k]);
-    monitor.enter("eval", "x", x.data(), std::min(f.dim, CallMonitor::max_arguments));
-    const double value = f.eval(x.data());
-    monitor.leave();
-    return bounds.volume() * value;
-  };
-  if (!f.eval_many) return e;
-  e.f_batch = [f, bounds, &monitor](UnitCubeIntegral::UnitPoint points, std::span<double> values) {
-    std::vector<double> x(points.begin(), points.end());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = bounds.at(i % bounds.lo.size(), x[i]);
-    monitor.enter("eval_many", "x", x.data(), std::min(f.dim, CallMonitor::max_arguments));
-    f.eval_many(static_cast<std::int64_t>(values.size()), x.data(), values.data());
-    monitor.leave();
-    for (double& value : values) value *= bounds.volume();
-  };
+  e.name = described["name"];
+  e.title = one["outputs"].size() == 1 ? one["title"].get<std::string>()
+                                       : fmt::format("{}: {}", one["title"].get<std::string>(), e.name);
+  e.source = path;
+  e.dim = one["dim"];
+  e.truth = described["truth"].is_null() ? std::numeric_limits<double>::quiet_NaN() : described["truth"].get<double>();
+  e.min_fit_n = 0;
   return e;
 }
 
-// Points to check an integrand before it is measured, and its values at single points.
-struct Looked {
-  std::vector<double> u, values; ///< one point after another
+json integrand_check(const std::string& path, std::size_t index) {
+  return {{"task", "check integrand"}, {"who", path}, {"index", index}};
+}
+
+// An output of an integrand of a plugin.
+struct PluginOutput {
+  std::string path;
+  std::size_t index, output;
 };
-
-// A slow integrand is evaluated at fewer points, since its measurement runs under the worker's limits anyway.
-Looked look_at(const UnitCubeIntegral& e) {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::size_t most = 22 * 23 / 2; // batches of 1 to 22 points
-  const auto dim = static_cast<std::size_t>(e.dim);
-  const auto end = Clock::now() + std::chrono::milliseconds(100);
-  Looked all;
-  while (all.values.size() < most && (all.values.empty() || Clock::now() < end)) {
-    for (std::size_t k = 0; k < dim; ++k) all.u.push_back(mc::hash_uniform<double>(79, all.values.size(), k));
-    all.values.push_back(e.f(std::span(all.u).last(dim)));
-  }
-  return all;
-}
-
-/// Compares repeated values of an integrand with its first values.
-class Repeated {
- public:
-  Repeated(const UnitCubeIntegral& e, double volume, const Looked& looked)
-      : e_(e), looked_(looked), dim_(static_cast<std::size_t>(e.dim)), volume_(volume) {
-    for (const double value : looked.values)
-      if (std::isfinite(value)) size_ = std::max(size_, std::abs(value));
-  }
-
-  UnitCubeIntegral::UnitPoint points(std::size_t first, std::size_t count) const {
-    return std::span(looked_.u).subspan(first * dim_, count * dim_);
-  }
-  // Values may differ by rounding, for example in a vectorised loop. If both are not finite, the measurement reports
-  // it.
-  void hold(std::size_t i, double again, const std::string& says, const std::string& remedy) const {
-    constexpr double tolerance = 1.5e-8; // about the square root of epsilon
-    const double first = looked_.values[i];
-    const bool same = first == again || std::abs(again - first) <= tolerance * size_;
-    mc::require(same || (std::isnan(first) && std::isnan(again)), "{}: at {} eval says {:.17g} {} {:.17g}; {}", e_.name,
-                e_.describe_point(points(i, 1)), first / volume_, says, again / volume_, remedy);
-  }
-
- private:
-  const UnitCubeIntegral& e_;
-  const Looked& looked_;
-  std::size_t dim_;
-  double volume_, size_ = 0;
-};
-
-// Throws Error if an integrand is no function of x alone, or if eval_many differs from eval.
-void require_a_function(const UnitCubeIntegral& e, double volume) {
-  const Looked looked = look_at(e);
-  const Repeated repeated(e, volume, looked);
-  const std::size_t count = looked.values.size();
-  for (std::size_t i = count; i-- > 0;)
-    repeated.hold(i, e.f(repeated.points(i, 1)), "and then", "it must depend on x alone, on nothing before");
-  if (!e.f_batch) return;
-  const auto hold_batch = [&](std::size_t first, std::size_t size) {
-    std::vector<double> values(size, std::numeric_limits<double>::quiet_NaN()); // a value that is not written stays NaN
-    e.f_batch(repeated.points(first, size), values);
-    for (std::size_t i = 0; i < size; ++i)
-      repeated.hold(first + i, values[i], fmt::format("and eval_many, as point {} of {},", i, size),
-                    "values[i] must be eval(x + i dim) (nan: perhaps not written); mend eval_many, or leave it out");
-  };
-  hold_batch(0, count);
-  // Batches of every small size, to test the remainders of vectorised loops.
-  for (std::size_t first = 0, size = 1; first < count; first += size++)
-    hold_batch(first, std::min(size, count - first));
-}
-
-json describe(const std::vector<mc_integrand>& integrands) {
-  json all = json::array();
-  for (const mc_integrand& f : integrands)
-    all.push_back({{"name", f.name},
-                   {"title", mc::printable(f.title ? f.title : f.name, 200)},
-                   {"dim", f.dim},
-                   {"batch", f.eval_many != nullptr},
-                   {"truth", f.has_truth ? json(f.truth) : json()}});
-  return all;
-}
 
 // `is_checked` records whether the integrand has passed the check, which runs only once.
-Replicates run(const std::string& path, std::size_t index, const ReplicateTask& task, WorkerOptions worker,
-               bool& is_checked) {
+Replicates run(const PluginOutput& which, const ReplicateTask& task, WorkerOptions worker, bool& is_checked) {
   worker.cancel = task.cancel;
   json r;
   try {
-    if (!is_checked) call_worker({{"task", "check integrand"}, {"who", path}, {"index", index}}, worker);
+    if (!is_checked) call_worker(integrand_check(which.path, which.index), worker);
     is_checked = true;
     r = call_worker({{"task", "integrand"},
-                     {"who", path},
-                     {"index", index},
+                     {"who", which.path},
+                     {"index", which.index},
+                     {"output", which.output},
                      {"way", task.method->name},
                      {"file", task.method->points_file},
+                     {"rescale", task.method->points_rescale},
                      {"one_by_one", task.method->scalar_calls},
                      {"n", task.n},
                      {"seed", task.seed},
@@ -178,20 +109,10 @@ Replicates run(const std::string& path, std::size_t index, const ReplicateTask& 
   return {r["values"], r["calls"], r["seconds"]};
 }
 
-} // namespace
-
-json run_integrand_task(const json& request, CallMonitor& monitor) {
-  const Plugin plugin = load_plugin(request["who"], monitor);
-  if (request["task"] == "describe integrands") return describe(plugin.integrands);
-  const mc_integrand& f = plugin.integrands[request["index"].get<std::size_t>()];
-  const UnitCubeIntegral e = experiment_of(f, monitor);
-  if (request["task"] == "check integrand") {
-    require_a_function(e, Bounds(f).volume());
-    return {};
-  }
+json run_replicates_of(const mc_integrand& f, const json& request, CallMonitor& monitor) {
   ReplicateTask task;
   const std::string file = request["file"];
-  SamplingMethod chosen = file.empty() ? sampling_method(request["way"]) : points_file_method(file);
+  SamplingMethod chosen = file.empty() ? sampling_method(request["way"]) : points_file_method(file, request["rescale"]);
   chosen.scalar_calls = request["one_by_one"];
   task.method = &chosen;
   task.n = request["n"];
@@ -199,37 +120,83 @@ json run_integrand_task(const json& request, CallMonitor& monitor) {
   task.first = request["first"];
   task.count = request["count"];
   task.threads = 1;
-  const Replicates r = run_replicates(e, task);
+  JointIntegrand all = joint_of(f, monitor, chosen.scalar_calls);
+  bind_outputs(all);
+  const Replicates r = run_replicates(all.outputs[request["output"].get<std::size_t>()], task);
   return {{"values", r.values}, {"calls", r.calls}, {"seconds", r.seconds}};
+}
+
+RowShape shape_of(const mc_integrand& f) { return {static_cast<std::size_t>(unit_dimension(f)), output_count(f)}; }
+
+// One integrand of a plugin, evaluated in sessions.
+JointIntegrand session_integrand(const std::string& path, const json& one, const WorkerOptions& worker) {
+  const std::size_t index = one["index"], outputs = one["outputs"].size(), dim = one["dim"];
+  call_worker(integrand_check(path, index), worker);
+  const auto rows = std::make_shared<ForeignRows>(json{{"task", "integrand session"}, {"who", path}, {"index", index}},
+                                                  RowShape{dim, outputs}, worker);
+  JointIntegrand all;
+  std::vector<VariableBounds> bounds;
+  for (std::size_t k = 0; k < one["lo"].size(); ++k)
+    bounds.push_back({fmt::format("x{}", k), one["lo"][k], one["hi"][k]});
+  for (std::size_t k = 0; k < outputs; ++k) {
+    all.outputs.push_back(integral_of(path, one, k));
+    if (one["has_density"]) continue; // the box is not the image of the cube
+    all.outputs.back().bounds = bounds;
+    all.outputs.back().describe_point = [box = BoxMap(bounds)](UnitCubeIntegral::UnitPoint u) {
+      return box.describe(u);
+    };
+  }
+  all.f = [rows](UnitCubeIntegral::UnitPoint points, std::span<double> values) { (*rows)(points, values); };
+  bind_outputs(all);
+  return all;
+}
+
+} // namespace
+
+json run_integrand_task(const json& request, CallMonitor& monitor) {
+  const Plugin plugin = load_plugin(request["who"], monitor);
+  const std::string task = request["task"];
+  if (task == "describe integrands") {
+    json all = json::array();
+    for (const mc_integrand& f : plugin.integrands) all.push_back(describe(f));
+    return all;
+  }
+  const mc_integrand& f = plugin.integrands[request["index"].get<std::size_t>()];
+  if (task == "integrand") return run_replicates_of(f, request, monitor);
+  if (task == "check integrand") require_pure(f, monitor);
+  if (task == "integrand session")
+    answer_rows(request, monitor, shape_of(f), joint_of(f, monitor).f, thread_cpu_seconds);
+  return {};
 }
 
 std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                            const WorkerOptions& worker) {
-  const json all = call_worker({{"task", "describe integrands"}, {"who", path}}, worker);
-  mc::require(!all.empty(), "{}: it contains distributions but no integrands; see carlo validate --plugin", path);
-  std::vector<std::string> known;
-  for (const json& one : all) known.push_back(one["name"]);
-  for (const std::string& name : names)
-    mc::require(std::find(known.begin(), known.end(), name) != known.end(), "{}: unknown integrand '{}'{}; it holds {}",
-                path, name, mc::did_you_mean(name, known), fmt::join(known, ", "));
   std::vector<IntegralTarget> targets;
-  for (std::size_t index = 0; index < known.size(); ++index) {
-    if (!names.empty() && std::find(names.begin(), names.end(), known[index]) == names.end()) continue;
-    const json& one = all[index];
-    IntegralTarget t;
-    t.integral.name = known[index];
-    t.integral.title = one["title"];
-    t.integral.source = path;
-    t.integral.dim = one["dim"];
-    t.integral.truth = one["truth"].is_null() ? std::numeric_limits<double>::quiet_NaN() : one["truth"].get<double>();
-    t.integral.min_fit_n = 0;
-    t.has_batch = one["batch"];
-    t.run = [path, index, worker, is_checked = std::make_shared<bool>(false)](const ReplicateTask& task) {
-      return run(path, index, task, worker, *is_checked);
-    };
-    targets.push_back(std::move(t));
+  for (const json& one : described(path, names, worker)) {
+    const auto is_checked = std::make_shared<bool>(false);
+    for (std::size_t k = 0; k < one["outputs"].size(); ++k) {
+      IntegralTarget t;
+      t.integral = integral_of(path, one, k);
+      t.has_batch = one["batch"];
+      t.run = [which = PluginOutput{path, one["index"], k}, worker, is_checked](const ReplicateTask& task) {
+        return run(which, task, worker, *is_checked);
+      };
+      targets.push_back(std::move(t));
+    }
   }
   return targets;
+}
+
+JointIntegrand plugin_integrand(const std::string& path, const std::vector<std::string>& names,
+                                const WorkerOptions& worker) {
+  const std::vector<json> chosen = described(path, names, worker);
+  std::vector<std::string> known;
+  for (const json& one : chosen) known.push_back(one["name"]);
+  mc::require(!names.empty() || chosen.size() == 1, "{}: it contains {} integrands; name one of {}", path,
+              chosen.size(), fmt::join(known, ", "));
+  std::vector<JointIntegrand> parts;
+  for (const json& one : chosen) parts.push_back(session_integrand(path, one, worker));
+  return joined(std::move(parts));
 }
 
 } // namespace carlo

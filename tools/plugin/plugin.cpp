@@ -67,16 +67,36 @@ void require_valid(const mc_sampler& s, std::size_t index) {
   });
 }
 
+void require_valid_outputs(const mc_integrand& f) {
+  mc::require(f.outputs >= 0 && f.outputs <= 64, "outputs = {} must lie in 0 to 64", f.outputs);
+  const bool several = f.outputs > 1;
+  mc::require(!several || f.eval_outputs, "outputs = {}, but eval_outputs is NULL", f.outputs);
+  mc::require(!several || !f.eval, "outputs = {}, but eval returns one value; leave eval out", f.outputs);
+  mc::require(several || f.eval, "it has no function eval");
+  mc::require(several || !f.eval_outputs, "it has eval_outputs, but outputs = {}; state how many", f.outputs);
+  for (int k = 0; f.output_names && k < std::max(f.outputs, 1); ++k)
+    mc::require(is_word(f.output_names[k]), "output {} has no name of letters, digits and _", k);
+  mc::require(!f.truths || f.has_truth, "it has truths, but has_truth = 0");
+  for (int k = 0; f.truths && k < std::max(f.outputs, 1); ++k)
+    mc::require(std::isfinite(f.truths[k]), "truths[{}] = {} is not finite", k, f.truths[k]);
+  mc::require(!several || !f.has_truth || f.truths, "has_truth = 1 with outputs = {}, but truths is NULL", f.outputs);
+}
+
 void require_valid(const mc_integrand& f, std::size_t index) {
   mc::require(is_word(f.name), "integrand {} has no name of letters, digits and _", index);
   mc::with_context(fmt::format("integrand {}", f.name), [&] {
-    mc::require(f.dim >= 1 && f.dim <= 64, "dim = {} must lie in 1 to 64", f.dim);
-    mc::require(f.eval, "it has no function eval");
+    mc::require(f.dim >= 1 && f.dim <= most_integrand_dimensions, "dim = {} must lie in 1 to {}", f.dim,
+                most_integrand_dimensions);
+    require_valid_outputs(f);
     mc::require(!f.has_truth || std::isfinite(f.truth), "truth = {} is not finite", f.truth);
     mc::require(!f.lo == !f.hi, "give both lo and hi, or neither");
     for (int i = 0; f.lo && i < f.dim; ++i)
       mc::require(std::isfinite(f.lo[i]) && std::isfinite(f.hi[i]) && f.lo[i] < f.hi[i],
                   "bounds [{}, {}] of axis {} must be finite, with lo < hi", f.lo[i], f.hi[i], i);
+    mc::require(!f.sample == !f.pdf, "give both sample and pdf, or neither");
+    mc::require(f.uniforms >= 0 && f.uniforms <= most_integrand_dimensions, "uniforms = {} must lie in 0 to {}",
+                f.uniforms, most_integrand_dimensions);
+    mc::require(f.uniforms == 0 || f.sample, "uniforms = {}, but sample is NULL", f.uniforms);
   });
 }
 
@@ -229,13 +249,13 @@ Plugin load_plugin(const std::string& path, CallMonitor& monitor) {
   mc::require(info->abi >= 1 && info->abi <= MC_PLUGIN_ABI,
               "it is made for version {} of <mc/check/plugin.h>, this carlo for 1 to {}; use the header of this carlo",
               info->abi, MC_PLUGIN_ABI);
-  const bool first = info->abi == 1;
+  const bool first = info->abi == 1, before_outputs = info->abi < 3;
   Plugin plugin;
   plugin.samplers = table("sampler", info->samplers, info->sampler_count, info->sampler_size,
                           first ? offsetof(mc_sampler, parts) : sizeof(mc_sampler));
   if (!first)
-    plugin.integrands =
-        table("integrand", info->integrands, info->integrand_count, info->integrand_size, sizeof(mc_integrand));
+    plugin.integrands = table("integrand", info->integrands, info->integrand_count, info->integrand_size,
+                              before_outputs ? offsetof(mc_integrand, outputs) : sizeof(mc_integrand));
   mc::require(!plugin.samplers.empty() || !plugin.integrands.empty(), "it lists neither distributions nor integrands");
   return plugin;
 }

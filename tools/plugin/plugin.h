@@ -14,6 +14,8 @@
 
 namespace carlo {
 
+constexpr int most_integrand_dimensions = 1024; ///< of mc_integrand
+
 /// A sampler of a loaded shared object with its parameters set. It wraps the functions of mc_sampler; the monitor
 /// records each call. It exists only in the child.
 class PluginDistribution {

@@ -49,19 +49,31 @@ void limit(int resource, double most) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
+// Replaces the standard streams, and closes every other descriptor. Otherwise this child would keep the pipes of
+// concurrent children open. Programs that the child starts inherit none of the descriptors above 2.
+void set_descriptors(int pipe, bool stays) {
+  constexpr int high = 10; // above every descriptor that is assigned below
+  const int result = fcntl(pipe, F_DUPFD, high), input = fcntl(STDIN_FILENO, F_DUPFD, high),
+            output = fcntl(STDOUT_FILENO, F_DUPFD, high), memory = stays ? fcntl(3, F_DUPFD, high) : -1;
+  dup2(STDERR_FILENO, STDOUT_FILENO);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+  dup3(result, 3, O_CLOEXEC);
+  if (stays) {
+    dup3(input, session_input, O_CLOEXEC);
+    dup3(output, session_output, O_CLOEXEC);
+    dup3(memory, session_memory, O_CLOEXEC);
+  }
+  close_range(stays ? session_memory + 1 : 4, ~0u, 0);
+}
+
 [[noreturn]] void run_child(int pipe, const ResourceLimits& limits, CallMonitor& monitor,
-                            const std::function<std::string(CallMonitor&)>& work) {
+                            const std::function<std::string(CallMonitor&)>& work, bool stays) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_NOFILE, limits.files);
   if (!sanitized) limit(RLIMIT_AS, limits.gigabytes * 0x1p30);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
-  dup2(STDERR_FILENO, STDOUT_FILENO);
-  const int nothing = open("/dev/null", O_RDONLY);
-  dup2(nothing, STDIN_FILENO);
-  // Otherwise this child would keep the pipes of concurrent children open.
-  if (pipe != 3) dup2(pipe, 3);
-  close_range(4, ~0u, 0);
+  set_descriptors(pipe, stays);
 
   std::string text;
   char ending = returned;
@@ -122,8 +134,8 @@ std::string CallMonitor::where() const {
 }
 
 ResourceLimits resource_limits(std::optional<double> timeout, std::optional<double> memory, bool has_foreign_code) {
-  mc::require(has_foreign_code || !(timeout || memory),
-              "{} is for foreign code: a --plugin, or a --command of validate", timeout ? "--timeout" : "--memory");
+  mc::require(has_foreign_code || !(timeout || memory), "{} is for foreign code: a --plugin or a --command",
+              timeout ? "--timeout" : "--memory");
   ResourceLimits limits;
   limits.seconds = timeout.value_or(limits.seconds);
   limits.gigabytes = memory.value_or(limits.gigabytes);
@@ -169,9 +181,10 @@ struct Ended {
   double stalled = 0; // seconds since the call count last increased
 };
 
-Ended wait_for(pid_t child, int pipe, const CallMonitor& monitor, const ResourceLimits& limits, int hangup) {
+Ended wait_for(pid_t child, int pipe, const CallMonitor& monitor, const ResourceLimits& limits, int hangup,
+               bool stays) {
   const double timeout = limits.seconds;
-  const auto start = Clock::now();
+  auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   Ended e;
   std::uint64_t calls = 0;
@@ -191,6 +204,11 @@ Ended wait_for(pid_t child, int pipe, const CallMonitor& monitor, const Resource
     } else {
       e.dead = waitpid(child, &e.status, WNOHANG) == child;
       if (!e.dead) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (stays && (monitor.is_idle() || monitor.calls() != calls)) {
+      start = Clock::now();
+      began = moved = 0;
+      calls = monitor.calls();
     }
     if (!began && (monitor.inside() || monitor.calls() > 0)) began = moved = elapsed();
     if (monitor.calls() != calls) {
@@ -235,7 +253,7 @@ mc::Error too_much_memory(const std::string& who, const ResourceLimits& limits, 
 } // namespace
 
 std::string run_isolated(const std::string& who, const ResourceLimits& limits, int hangup,
-                         const std::function<std::string(CallMonitor&)>& work) {
+                         const std::function<std::string(CallMonitor&)>& work, bool stays) {
   const auto system_error = [&](const char* what) {
     return mc::Error(fmt::format("{}: {}: {}", who, what, std::strerror(errno)));
   };
@@ -247,9 +265,9 @@ std::string run_isolated(const std::string& who, const ResourceLimits& limits, i
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t child = fork();
   if (child < 0) throw system_error("no child process");
-  if (child == 0) run_child(ends[1], limits, *monitor, work);
+  if (child == 0) run_child(ends[1], limits, *monitor, work, stays);
   close(ends[1]);
-  const Ended ended = wait_for(child, ends[0], *monitor, limits, hangup);
+  const Ended ended = wait_for(child, ends[0], *monitor, limits, hangup, stays);
   close(ends[0]);
   end_descendants();
 

@@ -62,6 +62,7 @@ pid_t spawn(const LaunchOptions& launch, int input, int output) {
                                      O_WRONLY | O_CREAT | O_TRUNC, 0666);
     posix_spawn_file_actions_adddup2(&setup.files, STDOUT_FILENO, STDERR_FILENO);
   }
+  if (launch.shared >= 0) posix_spawn_file_actions_adddup2(&setup.files, launch.shared, 3);
   sigset_t all, none;
   sigfillset(&all);
   sigemptyset(&none);
@@ -117,13 +118,14 @@ void ChildProcess::close_input() {
 bool ChildProcess::has_output() const {
   pollfd p{output_, POLLIN, 0};
   constexpr int interval = 50; // ms between two checks of the program
-  while (poll(&p, 1, interval) <= 0) {
-    siginfo_t info{};
-    const bool ended =
-        waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
-    if (ended) return poll(&p, 1, 0) > 0;
-  }
+  while (poll(&p, 1, interval) <= 0)
+    if (has_ended()) return poll(&p, 1, 0) > 0;
   return true;
+}
+
+bool ChildProcess::has_ended() const {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
 }
 
 std::size_t ChildProcess::available_bytes() const {

@@ -14,6 +14,7 @@ struct LaunchOptions {
   std::vector<std::string> arguments; ///< the program first; without a slash it is searched in PATH
   std::string folder = {};            ///< working directory; empty: the current one
   std::string output_file = {};       ///< file for both output streams; empty: output() is a pipe
+  int shared = -1;                    ///< a file that the program receives as descriptor 3; -1: none
 };
 
 /// A running program in its own process group. The destructor ends the whole group. Standard input and output are pipes
@@ -32,6 +33,8 @@ class ChildProcess {
   /// Waits for output or for the end of the pipe. Returns false if the program has ended without further output, even
   /// if a process that it started still holds the pipe open.
   bool has_output() const;
+  /// Whether the program itself has ended. Processes that it started may still run.
+  bool has_ended() const;
   /// Number of output bytes that can be read without waiting.
   std::size_t available_bytes() const;
   /// Waits for the end of the program. Returns its exit code, or 128 + the number of the signal that ended it.

@@ -14,18 +14,33 @@ namespace carlo {
 namespace {
 
 struct Quality {
-  double l2_star, l2_periodic;
+  mc::L2Discrepancies l2;
   mc::SmallestDistance distance;
   std::vector<double> power;
 };
 
 Quality quality_of(mc::PointList p, int rings) {
-  return {mc::l2_star_discrepancy(p), mc::periodic_l2_discrepancy(p), mc::smallest_distance(p),
+  return {mc::l2_discrepancies(p), mc::smallest_distance(p),
           rings > 0 ? mc::radial_power_spectrum(p, rings) : std::vector<double>()};
+}
+
+constexpr double mc::L2Discrepancies::*l2_members[] = {&mc::L2Discrepancies::star, &mc::L2Discrepancies::periodic,
+                                                       &mc::L2Discrepancies::centered, &mc::L2Discrepancies::wraparound,
+                                                       &mc::L2Discrepancies::mixture};
+
+// Root mean squares over sets with a member `l2`.
+template <class Sets> mc::L2Discrepancies l2_of(const Sets& sets) {
+  mc::L2Discrepancies mean;
+  for (const auto member : l2_members) {
+    for (const auto& set : sets) mean.*member += set.l2.*member * set.l2.*member / static_cast<double>(sets.size());
+    mean.*member = std::sqrt(mean.*member);
+  }
+  return mean;
 }
 
 // The measures that have no formula.
 struct ReferenceSetQuality {
+  mc::L2Discrepancies l2;
   mc::StarDiscrepancy star;
   double distance = 0;
   std::optional<int> t;
@@ -38,14 +53,15 @@ ReferenceSetQuality reference_set_quality(std::uint64_t index, std::uint64_t n, 
       set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(dim), mc::hash(0x9eed, index));
   const mc::PointList p{x, dim};
   const bool star = index % reference_sets < reference_stars;
-  return {star ? mc::star_discrepancy(p, work) : mc::StarDiscrepancy{0, 0}, mc::smallest_distance(p).periodic,
-          mc::net_quality(p, 10'000'000)};
+  return {mc::l2_discrepancies(p), star ? mc::star_discrepancy(p, work) : mc::StarDiscrepancy{0, 0},
+          mc::smallest_distance(p).periodic, mc::net_quality(p, 10'000'000)};
 }
 
 QualityReference means(std::span<const ReferenceSetQuality> all) {
   QualityReference mean;
   const double share = 1.0 / static_cast<double>(all.size());
   mean.t = 0;
+  mean.l2 = l2_of(all);
   for (const ReferenceSetQuality& d : all) {
     mean.star.lower += d.star.lower / reference_stars;
     mean.star.upper += d.star.upper / reference_stars;
@@ -77,23 +93,19 @@ QualityRow measure_quality(const PointSets& sets, std::size_t dim, int threads, 
       all[i - 1 - others.size()] = quality_of({sets[i - 1 - others.size()], dim}, rings);
     }
   });
-  row.first_l2_star = all[0].l2_star;
-  row.first_l2_periodic = all[0].l2_periodic;
+  row.first_l2 = all[0].l2;
+  row.l2 = l2_of(all);
   row.first_distance = all[0].distance;
   row.power.assign(static_cast<std::size_t>(rings), 0.0);
   for (const Quality& q : all) {
-    row.l2_star += q.l2_star * q.l2_star / count;
-    row.l2_periodic += q.l2_periodic * q.l2_periodic / count;
     row.distance += q.distance.periodic / count;
     for (std::size_t k = 0; k < row.power.size(); ++k) row.power[k] += q.power[k] / count;
   }
-  row.l2_star = std::sqrt(row.l2_star);
-  row.l2_periodic = std::sqrt(row.l2_periodic);
   row.random = means(std::span(others).first(reference_sets));
   row.jittered = means(std::span(others).subspan(reference_sets));
-  row.random.l2_star = row.random.l2_periodic = std::sqrt(mc::random_mean_square(n, axes));
-  row.jittered.l2_star = std::sqrt(mc::jittered_star_mean_square(n, axes));
-  row.jittered.l2_periodic = std::sqrt(mc::jittered_periodic_mean_square(n, axes));
+  row.random.l2 = mc::random_l2_discrepancies(n, axes);
+  row.jittered.l2.star = std::sqrt(mc::jittered_star_mean_square(n, axes));
+  row.jittered.l2.periodic = std::sqrt(mc::jittered_periodic_mean_square(n, axes));
   row.random.power.assign(row.power.size(), 1.0);
   if (dim >= 2) row.jittered.power = mc::jittered_radial_spectrum(std::pow(n, 1.0 / axes), rings);
   return row;

@@ -17,10 +17,11 @@ using PointSets = std::vector<std::vector<double>>;
 /// expensive and varies little, so it uses only the first reference_stars of them.
 constexpr int reference_sets = 16, reference_stars = 8;
 
-/// Expected values: by formula for the L2 discrepancies (root mean squares) and the spectrum, otherwise means over sets
-/// with fixed seeds. t is empty if it is unknown for one of them.
+/// Expected values: by formula for the spectrum and the L2 discrepancies (root mean squares), otherwise means over sets
+/// with fixed seeds. Centered, wrap-around and mixture discrepancies of jittered points have no formula. t is empty if
+/// it is unknown for one of the sets.
 struct QualityReference {
-  double l2_star = 0, l2_periodic = 0;
+  mc::L2Discrepancies l2;
   mc::StarDiscrepancy star{0, 0}; ///< means of both bounds
   double distance = 0;            ///< mean periodic distance
   std::optional<double> t;
@@ -30,13 +31,13 @@ struct QualityReference {
 /// Results for one number of points: the first set in full, and means over all randomisations.
 struct QualityRow {
   std::uint64_t n = 0;
-  double first_l2_star = 0, first_l2_periodic = 0;
+  mc::L2Discrepancies first_l2;
   mc::SmallestDistance first_distance{};
-  mc::StarDiscrepancy star;            ///< star discrepancy of the first set
-  std::optional<int> t;                ///< t of the first set
-  double l2_star = 0, l2_periodic = 0; ///< root mean squares
-  double distance = 0;                 ///< mean periodic distance
-  std::vector<double> power;           ///< mean for each ring
+  mc::StarDiscrepancy star;  ///< star discrepancy of the first set
+  std::optional<int> t;      ///< t of the first set
+  mc::L2Discrepancies l2;    ///< root mean squares
+  double distance = 0;       ///< mean periodic distance
+  std::vector<double> power; ///< mean for each ring
   QualityReference random, jittered;
 };
 

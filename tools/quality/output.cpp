@@ -33,12 +33,21 @@ using Value = std::optional<double>;
 
 const Column columns[] = {
     {"n", [](const QualityRow& r) -> Value { return static_cast<double>(r.n); }},
-    {"l2_star", [](const QualityRow& r) -> Value { return r.l2_star; }},
-    {"l2_star_random", [](const QualityRow& r) -> Value { return r.random.l2_star; }},
-    {"l2_star_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2_star; }},
-    {"l2_periodic", [](const QualityRow& r) -> Value { return r.l2_periodic; }},
-    {"l2_periodic_random", [](const QualityRow& r) -> Value { return r.random.l2_periodic; }},
-    {"l2_periodic_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2_periodic; }},
+    {"l2_star", [](const QualityRow& r) -> Value { return r.l2.star; }},
+    {"l2_star_random", [](const QualityRow& r) -> Value { return r.random.l2.star; }},
+    {"l2_star_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2.star; }},
+    {"l2_periodic", [](const QualityRow& r) -> Value { return r.l2.periodic; }},
+    {"l2_periodic_random", [](const QualityRow& r) -> Value { return r.random.l2.periodic; }},
+    {"l2_periodic_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2.periodic; }},
+    {"centered", [](const QualityRow& r) -> Value { return r.l2.centered; }},
+    {"centered_random", [](const QualityRow& r) -> Value { return r.random.l2.centered; }},
+    {"centered_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2.centered; }},
+    {"wraparound", [](const QualityRow& r) -> Value { return r.l2.wraparound; }},
+    {"wraparound_random", [](const QualityRow& r) -> Value { return r.random.l2.wraparound; }},
+    {"wraparound_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2.wraparound; }},
+    {"mixture", [](const QualityRow& r) -> Value { return r.l2.mixture; }},
+    {"mixture_random", [](const QualityRow& r) -> Value { return r.random.l2.mixture; }},
+    {"mixture_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2.mixture; }},
     {"star_lower", [](const QualityRow& r) -> Value { return r.star.lower; }},
     {"star_upper", [](const QualityRow& r) -> Value { return r.star.upper; }},
     {"star_random_lower", [](const QualityRow& r) -> Value { return r.random.star.lower; }},
@@ -127,9 +136,22 @@ std::string spectra(const std::vector<QualityRow>& rows) {
   return s;
 }
 
+// The fields l2_star, l2_periodic, centered, wraparound and mixture with a suffix.
+void add(json& j, const mc::L2Discrepancies& l2, const std::string& suffix) {
+  j["l2_star" + suffix] = l2.star;
+  j["l2_periodic" + suffix] = l2.periodic;
+  j["centered" + suffix] = l2.centered;
+  j["wraparound" + suffix] = l2.wraparound;
+  j["mixture" + suffix] = l2.mixture;
+}
+
 json to_json(const QualityReference& r) {
-  return {{"l2_star_rms", r.l2_star},   {"l2_periodic_rms", r.l2_periodic}, {"star_lower", r.star.lower},
-          {"star_upper", r.star.upper}, {"distance_periodic", r.distance},  {"t", r.t ? json(*r.t) : json()}};
+  json j = {{"star_lower", r.star.lower},
+            {"star_upper", r.star.upper},
+            {"distance_periodic", r.distance},
+            {"t", r.t ? json(*r.t) : json()}};
+  add(j, r.l2, "_rms");
+  return j;
 }
 
 } // namespace
@@ -179,19 +201,18 @@ std::string quality_script(const std::string& title, const std::vector<QualityRo
 }
 
 json to_json(const QualityRow& r) {
-  return {{"n", r.n},
-          {"l2_star", r.first_l2_star},
-          {"l2_star_rms", r.l2_star},
-          {"l2_periodic", r.first_l2_periodic},
-          {"l2_periodic_rms", r.l2_periodic},
-          {"star_lower", r.star.lower},
-          {"star_upper", r.star.upper},
-          {"distance", r.first_distance.plain},
-          {"distance_periodic", r.first_distance.periodic},
-          {"t", r.t ? json(*r.t) : json()},
-          {"power", r.power},
-          {"random", to_json(r.random)},
-          {"jittered", to_json(r.jittered)}};
+  json j = {{"n", r.n},
+            {"star_lower", r.star.lower},
+            {"star_upper", r.star.upper},
+            {"distance", r.first_distance.plain},
+            {"distance_periodic", r.first_distance.periodic},
+            {"t", r.t ? json(*r.t) : json()},
+            {"power", r.power},
+            {"random", to_json(r.random)},
+            {"jittered", to_json(r.jittered)}};
+  add(j, r.first_l2, "");
+  add(j, r.l2, "_rms");
+  return j;
 }
 
 } // namespace carlo

@@ -34,12 +34,8 @@ MethodEstimate integrate_with(const UnitCubeIntegral& e, mc::Method method, std:
   o.method = method;
   o.seed = seed;
   o.threads = 1;
-  const auto f = [&](std::span<const double> u) {
-    double value = 0;
-    evaluate(e, u, std::span(&value, 1));
-    return value;
-  };
-  const mc::Integral r = mc::integrate_unit(f, e.dim, o);
+  const auto f = [&](std::span<const double> points, std::span<double> values) { evaluate(e, points, values); };
+  const mc::Integral r = mc::integrate_unit(mc::BatchIntegrand{f}, e.dim, o);
   return {r.estimate.value, static_cast<double>(r.calls)};
 }
 
@@ -110,14 +106,17 @@ const SamplingMethod& sampling_method(const std::string& name) {
       fmt::format("unknown method '{}'{}; use {}", name, mc::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-SamplingMethod points_file_method(const std::string& file) {
-  const auto points = std::make_shared<const CsvTable>(read_points(file, 64, std::size_t{1} << 28, 64));
+SamplingMethod points_file_method(const std::string& file, const std::string& rescale) {
+  PointsFile read = read_points(file, {64, std::size_t{1} << 28, 1024, rescale});
+  const auto points = std::make_shared<const CsvTable>(std::move(read.table));
   SamplingMethod w;
   w.name = std::filesystem::path(file).filename().string();
   const auto has_its_name = [&](const SamplingMethod& known) { return known.name == w.name; };
   if (std::any_of(sampling_methods().begin(), sampling_methods().end(), has_its_name)) w.name = "./" + w.name;
   w.title = "the points of this file, shifted at random";
   w.points_file = std::filesystem::absolute(file).string();
+  w.points_rescale = rescale;
+  w.note = read.note;
   w.max_calls = points->rows();
   w.max_dimensions = static_cast<int>(points->columns);
   w.estimate = [points](const UnitCubeIntegral& e, std::uint64_t n, std::uint64_t seed) {

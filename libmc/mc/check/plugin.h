@@ -1,8 +1,8 @@
 #ifndef MC_CHECK_PLUGIN_H
 #define MC_CHECK_PLUGIN_H
 /// Interface of plugins: distributions and integrands compiled to a shared library. Users pass the library as
-/// `carlo validate --plugin ./mine.so` or `carlo converge --plugin ./mine.so`. Any language that exports C functions
-/// works. This header is valid C99 and C++.
+/// `carlo validate --plugin ./mine.so`, or as `--plugin` of carlo integrate, converge and trade. Any language that
+/// exports C functions works. This header is valid C99 and C++.
 ///
 ///   static int32_t sample(const void *self, const double *u, double *x) { ... }
 ///   static double pdf(const void *self, const double *x) { ... }
@@ -31,7 +31,8 @@ extern "C" {
 
 /// Version of the structs below. carlo accepts plugins of this version and of every earlier version, and rejects later
 /// versions. Version 2 adds MC_PRODUCT, outcomes in addition to a density, breaks, open intervals and integrands.
-#define MC_PLUGIN_ABI 2
+/// Version 3 adds integrands with several outputs, with up to 1024 dimensions and with an importance density.
+#define MC_PLUGIN_ABI 3
 
 /// The domain of the points x, and the measure of the density.
 enum mc_domain {
@@ -111,19 +112,33 @@ typedef struct mc_sampler {
   int32_t (*breaks)(const void* self, int32_t axis, const double** places);
 } mc_sampler;
 
-/// An integral over a box, for `carlo converge --plugin` and `carlo trade --plugin`.
+/// An integral over a box, for `carlo integrate --plugin`, `carlo converge --plugin` and `carlo trade --plugin`.
 typedef struct mc_integrand {
   const char* name;  ///< letters, digits and _
   const char* title; ///< optional: one line
-  int32_t dim;       ///< dimension, 1 to 64
+  int32_t dim;       ///< dimension, 1 to 1024
   int32_t has_truth; ///< 1: `truth` is the exact integral
   double truth;      ///< the exact integral, if has_truth
   const double *lo,  ///< dim finite lower bounds; NULL: the unit cube
       *hi;           ///< dim finite upper bounds
   /// Returns the integrand at x, an array of dim numbers.
   double (*eval)(const double* x);
-  /// Optional: evaluates `count` points at once, values[i] = eval(x + i dim).
+  /// Optional: evaluates `count` points at once, values[i] = eval(x + i dim). With outputs > 1, output k at point i is
+  /// values[i outputs + k].
   void (*eval_many)(int64_t count, const double* x, double* values);
+
+  /* Since version 3. */
+  int32_t outputs;                 ///< number of values at each point, 1 to 64; 0: one
+  int32_t uniforms;                ///< length of u for one call of sample, 1 to 1024; 0: dim
+  const char* const* output_names; ///< optional: one name for each output, of letters, digits and _
+  const double* truths;            ///< optional, with has_truth: the exact integral of each output, instead of `truth`
+  /// Required with outputs > 1, and then eval is NULL: sets values[k] to output k at x.
+  void (*eval_outputs)(const double* x, double* values);
+  /// Optional, with pdf: maps u in [0,1)^uniforms to a point x of the importance density. Points outside of the bounds
+  /// contribute 0. The integral is then the mean of eval(x) / pdf(x).
+  void (*sample)(const double* u, double* x);
+  /// Returns the density at x, in 1 / volume: > 0 at every sample, and > 0 where the integrand is not 0.
+  double (*pdf)(const double* x);
 } mc_integrand;
 
 /// Result of mc_plugin, the only function that a plugin exports. It stays valid and unchanged.

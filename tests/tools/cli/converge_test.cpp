@@ -163,6 +163,10 @@ TEST_F(Converge, PointsFile_IsOneMoreSampler) {
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, HasSubstr("p.csv       RMS error "));
   EXPECT_THAT(r.output, HasSubstr("at N = 128, ")) << "the largest power of two that the file holds";
+  const ProcessResult closed = run("pi --points-file '" + write("closed.csv", halton + "0.5,1\n") +
+                                   "' --rescale 0:1 --samplers random --max-n 128");
+  EXPECT_EQ(closed.exit_code, 0) << closed.output;
+  EXPECT_THAT(closed.output, HasSubstr("closed.csv: [0, 1] rescaled to [0, 1); 1 coordinate at the upper end became"));
   // A file named like a sampler is not that sampler.
   EXPECT_THAT(run("pi --points-file '" + write("sobol", halton) + "' --samplers sobol --max-n 128").output,
               HasSubstr("./sobol     RMS error "));
@@ -221,7 +225,7 @@ TEST_F(Converge, BadInput_IsReportedInOneLine) {
   expect_refused("'_pi' -d x=0:1,y=0:1", "'_pi' uses none of x, y: ");
   expect_refused("a.xml b.xml", "'a.xml' stands among others: scenes are measured one at a time; give it alone");
   expect_refused("pi b.xml", "'b.xml' stands among others");
-  expect_refused("pi --max-n 64 --timeout 3", "--timeout is for foreign code: a --plugin, or a --command of validate");
+  expect_refused("pi --max-n 64 --timeout 3", "--timeout is for foreign code: a --plugin or a --command");
   expect_refused("pie", "unknown integrand 'pie'; did you mean 'pi'?");
   expect_refused("3", "for an expression give --domain");
   expect_refused("pi --cost rays", "--cost are for a scene (.xml)");

@@ -82,6 +82,10 @@ TEST_F(Points, EveryFigureHasItsRandomAndJitteredExpectation) {
   };
   for (std::size_t row = 0; row < 5; ++row) {
     EXPECT_NEAR(value("l2_star", row), value("l2_star_random", row), 0.2 * value("l2_star", row));
+    for (const std::string name : {"centered", "wraparound", "mixture"}) {
+      EXPECT_NEAR(value(name, row), value(name + "_random", row), 0.2 * value(name, row));
+      EXPECT_LT(value(name + "_jittered", row), value(name + "_random", row));
+    }
     EXPECT_NEAR(value("distance_periodic", row), value("distance_random", row), 0.6 * value("distance_random", row));
     EXPECT_NEAR(value("power_low", row), 1, 0.3);
     EXPECT_EQ(value("power_low_random", row), 1);
@@ -140,6 +144,32 @@ TEST_F(Points, PointsFile_IsAnalysedUnchanged) {
     return text.substr(text.rfind('\n', text.size() - 2) + 1);
   };
   EXPECT_EQ(last("a"), last("b"));
+}
+
+// A closed file of another program: its range becomes [0, 1), and carlo tells.
+TEST_F(Points, ClosedFile_IsRescaled) {
+  const std::string closed = write("closed.csv", "-1,1\n0,0.5\n1,-1\n0.5,0\n");
+  const auto measured = [&](const std::string& range) {
+    const ProcessResult run =
+        run_carlo("points --points-file '" + closed + "' --rescale=" + range + " -o '" + path("out") + "'");
+    EXPECT_EQ(run.exit_code, 0) << run.output;
+    return run.output;
+  };
+  EXPECT_THAT(measured("-1:1"),
+              HasSubstr("closed.csv: [-1, 1] rescaled to [0, 1); 2 coordinates at the upper end became "
+                        "1 - 2^-53\n"));
+  EXPECT_EQ(mc::read_file(path("out/points.csv")), "0,0.9999999999999999\n0.5,0.75\n0.9999999999999999,0\n0.75,0.5\n");
+  EXPECT_THAT(measured("auto"), HasSubstr("closed.csv: the range of each column rescaled to [0, 1); 2 coordinates"));
+  EXPECT_THAT(measured("-3:5"), HasSubstr("; 0 coordinates at the upper end"));
+  const std::string file = "--points-file '" + closed + "' ";
+  expect_refused(file, "closed.csv:1: coordinate 1 is -1; it must lie in [0, 1); for points in another range give "
+                       "--rescale, as in --rescale=-1:1");
+  expect_refused(file + "--rescale 0:1", "closed.csv:1: coordinate 1 is -1; it must lie in [0, 1] of --rescale");
+  expect_refused(file + "--rescale 1:1", "--rescale '1:1' must be LO:HI with numbers LO < HI, as in 0:1, or auto");
+  expect_refused(file + "--rescale wide", "--rescale 'wide' must be");
+  expect_refused("--points-file '" + write("flat.csv", "0.5,1\n0.5,2\n") + "' --rescale auto",
+                 "--rescale auto: column 1 has the range 0.5 to 0.5; give LO:HI");
+  expect_refused("sobol --rescale 0:1", "--rescale is for a --points-file");
 }
 
 // No distance exceeds 0, so none can be drawn on a logarithmic axis.

@@ -218,7 +218,7 @@ TEST(Plugin, UnloadablePlugin_NamesReason) {
   EXPECT_THAT(refusal(plugin("no_entry")), HasSubstr("no_entry.so: it has no function mc_plugin"));
   EXPECT_THAT(refusal(plugin("undefined")), AllOf(HasSubstr("it cannot be loaded"), HasSubstr("nobody_defines_this")));
   EXPECT_THAT(refusal(plugin("wrong_abi")),
-              HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1 to 2"));
+              HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1 to 3"));
   EXPECT_THAT(refusal(plugin("wrong_size")), HasSubstr("its mc_sampler has 8 bytes"));
   EXPECT_THAT(refusal(plugin("no_pdf")), HasSubstr("sampler Uniform: it has no function pdf"));
   EXPECT_THAT(refusal(plugin("unknown_domain")), HasSubstr("domain = 9"));

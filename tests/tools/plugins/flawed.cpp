@@ -111,6 +111,19 @@ extern "C" const mc_plugin_info* mc_plugin() {
   static mc_plugin_info info = {1, offsetof(mc_sampler, parts), 1, samplers, 77, 77, nullptr};
   return &info;
 }
+#elif defined(FLAW_second_version)
+// An integrand compiled before the struct grew.
+static double linear(const double* x) { return x[0]; }
+extern "C" const mc_plugin_info* mc_plugin() {
+  static mc_integrand integrand = {};
+  integrand.name = "Old";
+  integrand.dim = 1;
+  integrand.eval = linear;
+  integrand.outputs = 99;
+  integrand.uniforms = -1;
+  static mc_plugin_info info = {2, sizeof(mc_sampler), 0, nullptr, offsetof(mc_integrand, outputs), 1, &integrand};
+  return &info;
+}
 #elif !defined(FLAW_no_entry)
 MC_PLUGIN(samplers)
 #endif

@@ -36,7 +36,38 @@ static double slow(const double* x) {
   return x[0];
 }
 
+static void moments(const double* x, double* values) {
+  values[0] = 1;
+  values[1] = x[0];
+  values[2] = x[0] * x[1];
+}
+static void many_moments(int64_t count, const double* x, double* values) {
+  int64_t i;
+  for (i = 0; i < count; ++i) moments(x + 2 * i, values + 3 * i);
+}
+static double sum_of_all(const double* x) {
+  double total = 0;
+  int i;
+  for (i = 0; i < 1024; ++i) total += x[i];
+  return total;
+}
+/* 1 / sqrt(x y), whose variance over the unit square is infinite, with the density 1 / (4 sqrt(x y)). */
+static double singular(const double* x) { return 1 / sqrt(x[0] * x[1]); }
+static void squares(const double* u, double* x) {
+  x[0] = (1 - u[0]) * (1 - u[0]);
+  x[1] = (1 - u[1]) * (1 - u[1]);
+}
+static double density_of_squares(const double* x) { return 1 / (4 * sqrt(x[0] * x[1])); }
+/* Uniform points of [0,2], from the last of three numbers; half of them lie outside of the domain. */
+static double one(const double* x) { return x[0] >= 0 && x[0] <= 1 ? 1 : sqrt(-1.0); }
+static void beyond(const double* u, double* x) { x[0] = 2 * u[2]; }
+static double half(const double* x) { return x[0] >= 0 ? 0.5 : 0.5; }
+static double zero(const double* x) { return 0 * x[0]; }
+static void nowhere(const double* u, double* x) { x[0] = u[0] / 0.0; }
+
 static const double lo[] = {0, -1}, hi[] = {1, 2};
+static const double truths[] = {3, 1.5, 0.75};
+static const char* const moment_names[] = {"mass", "mean", "cross"};
 static const mc_integrand integrands[] = {
     {.name = "Sum", .title = "x + y over a box", .dim = 2, .has_truth = 1, .truth = 3, .lo = lo, .hi = hi, .eval = sum},
     {.name = "Batch", .dim = 2, .has_truth = 1, .truth = 3, .lo = lo, .hi = hi, .eval = sum, .eval_many = sums},
@@ -47,5 +78,26 @@ static const mc_integrand integrands[] = {
     {.name = "NaN", .dim = 1, .eval = not_a_number},
     {.name = "Hang", .dim = 1, .eval = hang},
     {.name = "Slow", .dim = 1, .eval = slow},
+    {.name = "Moments",
+     .dim = 2,
+     .has_truth = 1,
+     .lo = lo,
+     .hi = hi,
+     .eval_many = many_moments,
+     .outputs = 3,
+     .output_names = moment_names,
+     .truths = truths,
+     .eval_outputs = moments},
+    {.name = "Wide", .dim = 1024, .has_truth = 1, .truth = 512, .eval = sum_of_all},
+    {.name = "Singular",
+     .dim = 2,
+     .has_truth = 1,
+     .truth = 4,
+     .eval = singular,
+     .sample = squares,
+     .pdf = density_of_squares},
+    {.name = "Beyond", .dim = 1, .has_truth = 1, .truth = 1, .eval = one, .uniforms = 3, .sample = beyond, .pdf = half},
+    {.name = "NoDensity", .dim = 1, .eval = one, .sample = beyond, .pdf = zero},
+    {.name = "NoPoint", .dim = 1, .eval = one, .sample = nowhere, .pdf = half},
 };
 MC_INTEGRANDS(integrands)

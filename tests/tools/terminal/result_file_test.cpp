@@ -18,11 +18,10 @@ TEST_F(ResultFileTest, Dash_IsStandardOutputWithNothingElse) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   std::printf("before ");
-  carlo::ResultWriter results;
   {
     const ResultFile file("-");
     std::printf("words");
-    file.write(results, true, "result");
+    file.write("result");
     std::printf(" more");
   }
   std::printf(" after");
@@ -35,9 +34,7 @@ TEST_F(ResultFileTest, Name_IsAFile) {
   const ResultFile file(path("r.json"));
   EXPECT_TRUE(file.is_wanted());
   EXPECT_FALSE(std::filesystem::exists(path("r.json"))) << "nothing is known yet";
-  carlo::ResultWriter results;
-  file.write(results, false, "result");
-  results.finish();
+  file.write("result");
   EXPECT_EQ(mc::read_file(path("r.json")), "result");
   EXPECT_FALSE(ResultFile("").is_wanted());
   EXPECT_NE(support::error_of([] { ResultFile("/nonexistent/r.json"); }), "");
