@@ -1,4 +1,6 @@
+#include <options/memory_option.h>
 #include <options/subcommand.h>
+#include <terminal/result_writer.h>
 
 #include <render/io/image/image_io.h>
 
@@ -20,10 +22,11 @@ namespace {
 
 struct CompareCommandOptions {
   std::string a, b;
-  std::string metric;          ///< empty: all
-  std::string diff;            ///< file for the difference image; empty: none
-  std::optional<double> alpha; ///< family-wise; none: usual_alpha
-  double tolerance = 0;        ///< relative difference that still counts as agreement
+  std::string metric;           ///< empty: all
+  std::string diff;             ///< file for the difference image; empty: none
+  std::optional<double> alpha;  ///< family-wise; none: usual_alpha
+  double tolerance = 0;         ///< relative difference that still counts as agreement
+  std::optional<double> memory; ///< [GiB]
 };
 
 constexpr double default_alpha = 0.01;
@@ -166,12 +169,12 @@ std::vector<Option> rows(CompareCommandOptions& o) {
   return in_groups({
       {common_options,
        {
-           {"A", "FILE", &o.a, "Image: .exr, .pfm, .hdr, .png or .jpg.", true},
-           {"B", "FILE", &o.b, "Image of the same size; the reference of relative metrics.", true},
+           input_file({"A", "FILE", &o.a, "Image: .exr, .pfm, .hdr, .png or .jpg.", true}),
+           input_file({"B", "FILE", &o.b, "Image of the same size; the reference of relative metrics.", true}),
            {"--metric", "NAME", &o.metric,
             "Print only this number: mse, rmse, mae, relmse, max or mean_ratio. Default: all of them, and the "
             "verdict."},
-           {"--diff", "FILE", &o.diff, "Write the image A - B to this file."},
+           output_file({"--diff", "FILE", &o.diff, "Write the image A - B to this file."}),
        }},
       {expert_options,
        {
@@ -187,6 +190,7 @@ std::vector<Option> rows(CompareCommandOptions& o) {
             "Difference relative to B that counts as agreement.",
             false,
             {judged}},
+           memory_option(o.memory),
        }},
   });
 }
@@ -217,12 +221,11 @@ std::string without_variance(const CompareCommandOptions& options, const Image& 
 }
 
 int run_compare(const CompareCommandOptions& options) {
+  limit_memory(options.memory);
   const double alpha = options.alpha.value_or(default_alpha);
   mc::require(alpha > 0 && alpha < 1, "--alpha {} must lie in (0, 1)", alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
-  for (const std::string& image : {options.a, options.b})
-    mc::require(options.diff.empty() || !mc::is_same_path(options.diff, image),
-                "--diff '{}' would overwrite an image that is compared; name another file", options.diff);
+  if (!options.diff.empty()) mc::require_writable(options.diff);
   const Image a = render::read_image(options.a), b = render::read_image(options.b);
   mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree",
               options.a, a.width, a.height, options.b, b.width, b.height);
@@ -244,7 +247,9 @@ int run_compare(const CompareCommandOptions& options) {
   if (!options.diff.empty()) {
     Image difference(a.width, a.height);
     for (std::size_t i = 0; i < a.pixels.size(); ++i) difference.pixels[i] = a.pixels[i] - b.pixels[i];
-    render::write_image(options.diff, difference);
+    ResultWriter results;
+    results.write(options.diff, false, [&](const std::string& file) { render::write_image(file, difference); });
+    results.finish();
   }
   if (!options.metric.empty()) return exit_ok;
 

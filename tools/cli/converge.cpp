@@ -4,10 +4,14 @@
 #include <input/points_file.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
+#include <options/files.h>
 #include <options/integral_options.h>
 #include <report/plot.h>
+#include <report/report_json.h>
 #include <terminal/interrupt.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
+#include <terminal/result_writer.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -63,14 +67,16 @@ std::vector<SamplingMethod> methods_of(const ConvergeCommandOptions& o) {
 
 // Writes and prints one target; `pictures` for a scene. Returns whether gnuplot can draw; pass the answer on, so that
 // the warning appears once.
-bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o,
-           const std::filesystem::path& folder, bool can_draw, const PictureMeasurement* pictures = nullptr) {
-  const std::string name = safe_file_name(target.integral.name), base = (folder / name).string();
-  mc::write_file(base + ".csv", to_csv(target, m));
+bool write(ResultWriter& results, const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o,
+           const std::filesystem::path& output, bool can_draw, const PictureMeasurement* pictures = nullptr) {
+  const std::string name = safe_file_name(target.integral.name);
+  const std::filesystem::path folder = result_folder(output, name + ".csv", m.interrupted);
+  const std::string base = (folder / name).string();
+  results.write(base + ".csv", false, to_csv(target, m));
   nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
   if (pictures) about["reference"] = {{"spp", pictures->reference_spp}, {"error", pictures->reference_error}};
-  mc::write_file(base + ".json", to_json(target, m, about).dump(1) + "\n");
-  mc::write_file(base + ".gp", to_script(target, m, name));
+  results.write(base + ".json", false, ordered_json_text(to_json(target, m, about)));
+  results.write(base + ".gp", false, to_script(target, m, name));
   fmt::print("{}", summary(target, m));
   const auto cut =
       std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
@@ -82,9 +88,9 @@ bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCom
     remove_plot(folder, name);
     return can_draw;
   }
-  if (draw_plot(folder, name, {name + ".csv"})) return true;
-  std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
-  return false;
+  results.attempt([&] { can_draw = draw_plot(folder, name, {name + ".csv"}); });
+  if (!can_draw) warn("gnuplot is not installed; data and scripts are written, but no plots");
+  return can_draw;
 }
 
 // Results of the targets, each written as soon as it is measured.
@@ -94,9 +100,9 @@ struct ConvergeRun {
   bool interrupted = false;
 };
 
-ConvergeRun measure_all(const std::vector<IntegralTarget>& targets, const std::vector<SamplingMethod>& chosen,
-                        const ConvergeCommandOptions& o, const std::filesystem::path& folder,
-                        const std::atomic<bool>* cancel) {
+ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>& targets,
+                        const std::vector<SamplingMethod>& chosen, const ConvergeCommandOptions& o,
+                        const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   ConvergeRun run;
@@ -115,7 +121,7 @@ ConvergeRun measure_all(const std::vector<IntegralTarget>& targets, const std::v
     const Measurement& done = run.measurements.back();
     run.curves += count_finished(done);
     run.interrupted = done.interrupted;
-    if (!done.curves.empty()) can_draw = write(targets[i], done, o, folder, can_draw);
+    if (!done.curves.empty()) can_draw = write(results, targets[i], done, o, folder, can_draw);
   }
   return run;
 }
@@ -132,14 +138,18 @@ std::vector<Option> rows(ConvergeCommandOptions& o) {
        "Every method; for a scene every strategy, spent evenly and adaptively, with splats and with tiles.",
        false,
        {{"--samplers", "--all takes every method"}}},
-      {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG, PNG and slopes.csv."},
-      {"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)."},
+      output_folder(
+          {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG, PNG and slopes.csv."},
+          {"slopes.csv"}),
+      output_folder({"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)."},
+                    {"index.html"}),
   };
   common.options.insert(common.options.end(), own.begin(), own.end());
   const OptionGroup expert{
       expert_options,
       {
-          {"--points-file", "FILE", &o.points, "Add the points of this file as a method: one point a row, in [0, 1)."},
+          input_file({"--points-file", "FILE", &o.points,
+                      "Add the points of this file as a method: one point a row, in [0, 1)."}),
           {"--rescale", "LO:HI", &o.scale, rescale_help},
           {"--replicates", "N", &o.replicates,
            "Independent repetitions behind each error, 8 to 100000; 0 is enough to know the error to 10 %."},
@@ -156,11 +166,30 @@ std::filesystem::path page_folder(const ConvergeCommandOptions& o) {
   return o.report.empty() ? "" : mc::make_output_folder(o.report, "index.html");
 }
 
-void write_report(const std::filesystem::path& folder, const ConvergeCommandOptions& o,
-                  const std::vector<PageEntry>& all) {
-  if (folder.empty()) return;
-  write_convergence_page(folder, converge_header(o.command), all);
+void write_report(ResultWriter& results, const std::filesystem::path& output, const ConvergeCommandOptions& o,
+                  const std::vector<PageEntry>& all, bool is_partial) {
+  if (output.empty()) return;
+  const std::filesystem::path folder = result_folder(output, "index.html", is_partial);
+  write_convergence_page(results, folder, converge_header(o.command), all);
   fmt::print("page: {}\n", (folder / "index.html").string());
+}
+
+// The slopes of all targets; a partial table does not replace one that exists.
+void write_slopes(ResultWriter& results, const std::filesystem::path& output, const std::string& slopes,
+                  bool is_partial) {
+  const std::filesystem::path folder = result_folder(output, "slopes.csv", is_partial);
+  results.write((folder / "slopes.csv").string(), false, slopes_header() + slopes);
+  fmt::print("data and plots: {}\n", folder.string());
+}
+
+// Throws Error where the files of a target would replace an input.
+void refuse_inputs(const ConvergeCommandOptions& o, const std::vector<IntegralTarget>& targets) {
+  std::vector<UsedFile> files = {{o.points, "the file of --points-file"}, {o.integral.plugin, "the file of --plugin"}};
+  for (const std::string& word : o.integral.integrands) files.push_back({word, "an input"});
+  for (const IntegralTarget& target : targets)
+    for (const char* extension : {".csv", ".json", ".gp", ".svg", ".png"})
+      files.push_back({o.output + "/" + safe_file_name(target.integral.name) + extension, "-o", true});
+  require_distinct_files(files);
 }
 
 int run_converge_scene(const ConvergeCommandOptions& o) {
@@ -168,6 +197,7 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const IntegralTarget target = scene_target(o.integral.integrands[0]);
+  refuse_inputs(o, {target});
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
   const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
@@ -181,11 +211,12 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   const bool interrupted = pictures.measurement.interrupted;
   if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
   if (pictures.methods.empty()) return exit_interrupted;
-  write(target, pictures.measurement, o, folder, true, &pictures);
+  ResultWriter results;
+  write(results, target, pictures.measurement, o, folder, true, &pictures);
   fmt::print("{}", bias_summary(pictures));
-  mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
-  fmt::print("data and plots: {}\n", folder.string());
-  write_report(page, o, {{&target, &pictures.measurement, &pictures}});
+  write_slopes(results, folder, slopes_csv(target, pictures.measurement), interrupted);
+  write_report(results, page, o, {{&target, &pictures.measurement, &pictures}}, interrupted);
+  results.finish();
   return interrupted ? exit_interrupted : exit_ok;
 }
 
@@ -207,11 +238,13 @@ int run_converge(const ConvergeCommandOptions& o) {
     for (const IntegralTarget& t : targets)
       mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions",
                   w.name, w.max_dimensions, t.integral.name, t.integral.dim);
+  refuse_inputs(o, targets);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
 
-  const ConvergeRun run = measure_all(targets, chosen, o, folder, interrupt.flag());
-  std::string slopes = slopes_header();
+  ResultWriter results;
+  const ConvergeRun run = measure_all(results, targets, chosen, o, folder, interrupt.flag());
+  std::string slopes;
   std::vector<PageEntry> measured;
   bool doubted = false;
   for (std::size_t i = 0; i < run.measurements.size(); ++i) {
@@ -220,11 +253,11 @@ int run_converge(const ConvergeCommandOptions& o) {
     measured.push_back({&targets[i], &run.measurements[i]});
     doubted = doubted || !run.measurements[i].truth_warning.empty();
   }
-  mc::write_file((folder / "slopes.csv").string(), slopes);
   if (run.interrupted)
     fmt::print("{}\n", interrupted_text(run.curves, targets.size() * chosen.size(), "curves", run.measurements.back()));
-  fmt::print("data and plots: {}\n", folder.string());
-  write_report(page, o, measured);
+  write_slopes(results, folder, slopes, run.interrupted);
+  write_report(results, page, o, measured, run.interrupted);
+  results.finish();
   if (run.interrupted) return exit_interrupted;
   return doubted ? exit_failed : exit_ok;
 }

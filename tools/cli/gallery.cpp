@@ -5,6 +5,7 @@
 #include <picture/resume.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
+#include <terminal/result_writer.h>
 
 #include <render/io/image/image_io.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -49,7 +50,9 @@ std::vector<Option> rows(GalleryCommandOptions& o) {
       {common_options,
        {
            {"NAME", "NAME", &o.names, "Scenes, see --list. Default: all."},
-           {"-o,--output", "FOLDER", &o.output, "Folder for the pictures (EXR and PNG), index.html and sheet.png."},
+           output_folder(
+               {"-o,--output", "FOLDER", &o.output, "Folder for the pictures (EXR and PNG), index.html and sheet.png."},
+               {"index.html", "sheet.png"}),
            {"--spp", "N", &o.spp, "Samples per pixel. Default: each scene's."},
            {"--time", "SECONDS", &o.seconds, "Wall-clock time for each scene.", false, {counted}},
            {"--target-error",
@@ -151,6 +154,7 @@ class GalleryRun {
 
   const std::vector<RenderedScene>& rendered() const { return rendered_; }
   const std::vector<render::Image>& thumbnails() const { return thumbnails_; }
+  ResultWriter& results() { return results_; }
 
  private:
   // Returns false when interrupted; an unfinished scene is not kept.
@@ -172,8 +176,9 @@ class GalleryRun {
     for (const auto& [key, value] : render_fingerprint(scene_file(*a.scene), "mitsuba", {}, a.file, a.settings, whole))
       result.image.metadata[key] = value; // for carlo render to go on with
     const std::string path = (folder_ / title).string();
-    render::write_image(path + ".exr", result.image);
-    render::write_image(path + ".png", result.image, tone_of(*a.scene));
+    results_.write(path + ".exr", false, [&](const std::string& file) { render::write_image(file, result.image); });
+    results_.write(path + ".png", false,
+                   [&](const std::string& file) { render::write_image(file, result.image, tone_of(*a.scene)); });
     RenderedScene r = report(a, result);
     r.strategies = strategies(a);
     if (cancel_->load()) return false;
@@ -206,6 +211,7 @@ class GalleryRun {
   std::filesystem::path folder_;
   const std::atomic<bool>* cancel_;
   ProgressLine progress_;
+  ResultWriter results_;
   std::size_t scene_count_ = 0;
   double work_ = 0, done_ = 0;
   std::vector<RenderedScene> rendered_;
@@ -243,11 +249,14 @@ int run_gallery(const GalleryCommandOptions& o) {
   run.render_all(scenes);
   const std::size_t finished = run.rendered().size();
   if (finished > 0) {
-    render::write_image((folder / "sheet.png").string(), sheet_of(run, o.thumbnail_side));
-    const std::string page = (folder / "index.html").string();
-    mc::write_file(page, gallery_page(run.rendered(), scenes.size(), o.command));
-    fmt::print("page: {}\n", page);
+    const bool is_partial = finished < scenes.size();
+    const render::Image sheet = sheet_of(run, o.thumbnail_side);
+    run.results().write((folder / "sheet.png").string(), is_partial,
+                        [&](const std::string& file) { render::write_image(file, sheet); });
+    fmt::print("page: {}\n", run.results().write((folder / "index.html").string(), is_partial,
+                                                 gallery_page(run.rendered(), scenes.size(), o.command)));
   }
+  run.results().finish();
   if (finished == scenes.size()) return exit_ok;
   fmt::print("interrupted: {} of {} scenes were finished\n", finished, scenes.size());
   return exit_interrupted;

@@ -9,6 +9,7 @@
 #include <report/integrate_output.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
 #include <terminal/result_file.h>
 
@@ -61,10 +62,12 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach."},
            {"--abs-error", "ERROR", &o.abs_error,
             "Absolute standard error that also suffices, in units of the integral."},
-           {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand."},
+           {"--max-calls", "N", &o.max_calls,
+            "Most evaluations of the integrand. The values of a sweep share them, but at least 16384 each."},
            {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
            {"--list", "", &o.list, "List the named integrands, and stop."},
-           {"--json", "FILE", &o.json, "Write the result and its rounds to this file; - is standard output."},
+           output_file(
+               {"--json", "FILE", &o.json, "Write the result and its rounds to this file; - is standard output."}),
        }},
       expression_group(o.expression),
       foreign_group(o.foreign),
@@ -76,8 +79,9 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
             "and B are names of --name; without names the integrals are I1, I2, ... The parts of a complex integral "
             "end "
             "in _re and _im. Can be given several times."},
-           {"-o,--output", "FOLDER", &o.output,
-            "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
+           output_folder({"-o,--output", "FOLDER", &o.output,
+                          "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
+                         {"sweep.csv", "sweep.gp", "sweep.svg", "sweep.png"}),
            {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
            {"--histogram", "AXIS=BINS", &o.histogram,
             "Print the shares of the integral along a variable (u0, u1, ... of a named integrand), each with its "
@@ -91,11 +95,13 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
       {expert_options,
        {
            {"--method", "NAME", &o.method, "Estimator: auto, plain, stratified, rqmc, vegas or tree."},
-           {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."},
-           {"--load-density", "FILE", &o.load_density,
-            "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
-            "where "
-            "it does not fit."},
+           output_file(
+               {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."}),
+           input_file(
+               {"--load-density", "FILE", &o.load_density,
+                "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
+                "where "
+                "it does not fit."}),
            {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
        }},
   });
@@ -318,14 +324,18 @@ void add_derived(IntegrateResults& found, const std::vector<std::string>& names,
 }
 
 // Writes the table of a sweep, and draws it.
-void write_sweep(const IntegrateResults& found, const std::filesystem::path& folder) {
-  if (folder.empty()) return;
-  mc::write_file((folder / "sweep.csv").string(), sweep_csv(found));
-  mc::write_file((folder / "sweep.gp").string(), sweep_script(found));
+void write_sweep(ResultWriter& results, const IntegrateResults& found, const std::filesystem::path& output,
+                 bool is_partial) {
+  if (output.empty()) return;
+  const std::filesystem::path folder = result_folder(output, "sweep.csv", is_partial);
+  results.write((folder / "sweep.csv").string(), false, sweep_csv(found));
+  results.write((folder / "sweep.gp").string(), false, sweep_script(found));
   const auto known = [](const mc::Integral& r) { return std::isfinite(r.estimate.std_error); };
-  if (std::none_of(found.results.outputs.begin(), found.results.outputs.end(), known)) remove_plot(folder, "sweep");
-  else if (!draw_plot(folder, "sweep", {"sweep.csv"}))
-    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and script are written, but no plot\n");
+  results.attempt([&] {
+    if (std::none_of(found.results.outputs.begin(), found.results.outputs.end(), known)) remove_plot(folder, "sweep");
+    else if (!draw_plot(folder, "sweep", {"sweep.csv"}))
+      warn("gnuplot is not installed; data and script are written, but no plot");
+  });
   fmt::print("data and plot: {}\n", folder.string());
 }
 
@@ -367,8 +377,6 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   mc::require(o.save_density != "-", "--save-density: a density goes to a file; name one");
   if (!o.save_density.empty()) mc::require_writable(o.save_density);
-  mc::require(o.json.empty() || o.json != o.save_density,
-              "--json and --save-density would both write '{}'; name another file", o.json);
   const ResultFile json(o.json);
   IntegrateResults found{.integrands = {}, .results = {}};
   const IntegrandSets sets = integrands_of(o, found);
@@ -379,11 +387,13 @@ int run_integrate(const IntegrateCommandOptions& o) {
   const std::vector<double> wanted = probabilities(o.quantiles);
   if (!wanted.empty()) measure_of(set, "--quantiles");
   mc::IntegrateOptions settings = settings_of(o);
+  constexpr std::uint64_t least_of_sweep = 1 << 14;
+  if (found.is_sweep()) settings.max_calls = std::max(o.max_calls / sets.size(), std::min(o.max_calls, least_of_sweep));
   Histogram histogram;
   if (!o.histogram.empty()) histogram = make_histogram(o.histogram, set, o.seed);
   ProgressLine progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
-    progress.show(double(p.calls) / double(o.max_calls),
+    progress.show(double(p.calls) / double(settings.max_calls),
                   fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
   };
   const Interrupt interrupt;
@@ -413,21 +423,28 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
 
+  for (mc::Integral& integral : found.results.outputs) { // a call of a sweep evaluates all of its points
+    integral.calls *= sets.size();
+    for (mc::IntegrateRound& round : integral.rounds) round.calls *= sets.size();
+  }
   add_derived(found, names_of(set, given_names(o)), o.derived);
+  ResultWriter results;
   if (found.is_sweep()) {
     fmt::print("{}{}", sweep_table(found), calls_text(found));
-    write_sweep(found, folder);
+    write_sweep(results, found, folder, cancelled);
   } else
     fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found),
                quantile_table(found));
-  if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));
+  if (json.is_wanted()) json.write(results, cancelled, integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
-    mc::require(r.density != nullptr,
+    mc::require(r.density != nullptr || cancelled,
                 "--save-density: nothing was learned by {} in {} calls, and {} is not written; "
                 "--method vegas or tree always learns",
                 name(r.method), r.calls, o.save_density);
-    mc::save_density(o.save_density, *r.density);
+    if (r.density)
+      results.write(o.save_density, cancelled, [&](const std::string& file) { mc::save_density(file, *r.density); });
   }
+  results.finish();
   return cancelled ? exit_interrupted : exit_code_of(found, settings);
 }
 

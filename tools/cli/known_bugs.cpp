@@ -1,6 +1,7 @@
 #include <cli/known_bugs.h>
 #include <known_bugs/cornell.h>
 #include <known_bugs/known_bugs.h>
+#include <plugin/worker.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
@@ -17,7 +18,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 
 namespace carlo {
@@ -51,7 +54,11 @@ struct DetectionResult {
 
 // Doubles the samples until the bug is rejected. All sample sizes together reject a correct distribution with
 // probability alpha.
-DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o) {
+//   throws : Interrupted.
+DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, const std::atomic<bool>* cancel) {
+  const std::function<void()> stop = [cancel] {
+    if (*cancel) throw Interrupted();
+  };
   std::uint64_t seed = o.seed; // the same numbers for any selection of bugs
   for (const char letter : slip.id)
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
@@ -60,7 +67,7 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o) {
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
   DetectionResult t;
   for (std::uint64_t n = slip.wrong.min_samples;; n = std::min(2 * n, o.samples)) {
-    t.wrong = slip.wrong.check({.samples = n, .seed = seed, .alpha = alpha});
+    t.wrong = slip.wrong.check({.samples = n, .seed = seed, .alpha = alpha, .before_draws = &stop});
     t.samples = n;
     t.caught = t.wrong.verdict() == mc::Verdict::fail;
     if (t.caught || n >= o.samples) break;
@@ -77,14 +84,16 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o) {
     else if (deterministic)
       if (const std::uint64_t bad = slip.wrong.first_failure(seed, t.samples)) t.samples = bad;
   }
-  t.right =
-      slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 4), .seed = seed, .alpha = alpha});
+  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 4),
+                              .seed = seed,
+                              .alpha = alpha,
+                              .before_draws = &stop});
   return t;
 }
 
 // As judge(); errors name the bug.
-DetectionResult detect_named(const KnownBug& slip, const KnownBugsCommandOptions& o) {
-  return mc::with_context(slip.title(), [&] { return detect(slip, o); });
+DetectionResult detect_named(const KnownBug& slip, const KnownBugsCommandOptions& o, const std::atomic<bool>* cancel) {
+  return mc::with_context(slip.title(), [&] { return detect(slip, o, cancel); });
 }
 
 std::string samples_text(const KnownBug& s, const DetectionResult& t) {
@@ -127,7 +136,12 @@ std::vector<std::optional<DetectionResult>> detect_all(const KnownBugs& bugs, co
   };
   mc::parallel_for(bugs.size(), o.threads, [&](std::size_t i) {
     if (*cancel) return;
-    DetectionResult one = detect_named(bugs[i], o);
+    DetectionResult one;
+    try {
+      one = detect_named(bugs[i], o, cancel);
+    } catch (const Interrupted&) {
+      return;
+    }
     const std::lock_guard lock(mutex);
     results[i] = std::move(one);
     ++finished;
@@ -153,10 +167,12 @@ void print_stories(const KnownBugs& bugs, const std::vector<std::optional<Detect
 }
 
 // Prints the boxes and appends them to `all`. Returns whether each agrees with the reference as the books claim.
-bool check_cornell_boxes(const KnownBugsCommandOptions& o, json& all) {
+// Returns true when interrupted.
+bool check_cornell_boxes(const KnownBugsCommandOptions& o, json& all, const std::atomic<bool>* cancel) {
   const std::uint64_t paths = o.samples / 4;
   fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, {} paths each.\n", paths);
-  const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads);
+  const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads, cancel);
+  if (boxes.empty()) return true;
   const double level = mc::sidak_level(o.alpha, 1 / static_cast<double>(boxes.size() - 1));
   bool as_claimed = true;
   for (const CornellBox& b : boxes) {
@@ -184,7 +200,7 @@ std::vector<Option> rows(KnownBugsCommandOptions& o) {
        {
            {"BUG", "", &o.names, "Bugs by id or name, with their explanations. Default: all, and the Cornell boxes."},
            {"--list", "", &o.list, "List the bugs, and stop."},
-           {"--json", "FILE", &o.json, "Write the results to this file; - is standard output."},
+           output_file({"--json", "FILE", &o.json, "Write the results to this file; - is standard output."}),
        }},
       {expert_options,
        {
@@ -222,17 +238,19 @@ int run_known_bugs(const KnownBugsCommandOptions& o) {
     right += results[i]->right.passed();
     all["slips"].push_back(to_json(bugs[i], *results[i]));
   }
-  const bool interrupted = *interrupt.flag();
   bool boxes_as_claimed = true;
   if (!o.names.empty()) print_stories(bugs, results);
-  else if (!interrupted) boxes_as_claimed = check_cornell_boxes(o, all["boxes"]);
+  else if (!*interrupt.flag()) boxes_as_claimed = check_cornell_boxes(o, all["boxes"], interrupt.flag());
+  const bool interrupted = *interrupt.flag();
   fmt::print("\n{} of {} bugs rejected, {} of {} corrections passed, at alpha {:g} for each, seed {}\n", caught,
              finished, right, finished, o.alpha, o.seed);
   if (interrupted) fmt::print("interrupted: {} of {} bugs were finished\n", finished, bugs.size());
   const bool passed = caught == bugs.size() && right == bugs.size() && boxes_as_claimed && !interrupted;
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
-  if (file.is_wanted()) file.write(json_text(all));
+  ResultWriter writer;
+  if (file.is_wanted()) file.write(writer, interrupted, json_text(all));
+  writer.finish();
   if (interrupted) return exit_interrupted;
   return passed ? exit_ok : exit_failed;
 }

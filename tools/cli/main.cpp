@@ -1,9 +1,11 @@
 /// carlo: the command line. The only file that includes CLI11.
 
+#include <options/files.h>
 #include <options/help.h>
 #include <options/subcommand.h>
 #include <terminal/columns.h>
 #include <terminal/interrupt.h>
+#include <terminal/message.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -158,10 +160,12 @@ int run(int argc, char** argv) {
   }
 
   require_compatible(app, *given());
+  carlo::require_distinct_files(carlo::files_of(given()->options));
   std::string command = "carlo";
   for (int i = 1; i < argc; ++i) command += " " + quoted(argv[i]);
   const int code = given()->run(command);
-  return code == carlo::exit_interrupted && carlo::Interrupt::is_terminated() ? carlo::exit_terminated : code;
+  const int signal = carlo::Interrupt::signal();
+  return code == carlo::exit_interrupted && signal != 0 ? 128 + signal : code;
 }
 
 // Opens a stream that was closed before carlo began: the next file that is opened would get its descriptor.
@@ -205,18 +209,19 @@ int finish(int code) {
 int main(int argc, char** argv) {
   occupy_standard_streams();
   keep_memory();
-  std::signal(SIGPIPE, SIG_IGN); // a write to a closed pipe fails instead: a plugin's pipe must not end carlo
+  // A write to a closed pipe, or beyond a limit of the file size, fails instead of ending carlo.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   try {
     return finish(run(argc, argv));
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "carlo: out of memory; ask for a smaller image or fewer samples\n");
+    carlo::print_message("out of memory; ask for a smaller image or fewer samples");
   } catch (const std::filesystem::filesystem_error& e) {
-    std::fprintf(stderr, "carlo: %s\n", e.what());
+    carlo::print_message(fmt::format("cannot use '{}': {}", e.path1().string(), e.code().message()));
   } catch (const std::system_error& e) { // of fmt::print and ResultFile
     if (e.code() == std::errc::broken_pipe) end_by_closed_pipe();
-    std::fprintf(stderr, "carlo: cannot write to standard output: %s\n", e.code().message().c_str());
+    carlo::print_message("cannot write to standard output: " + e.code().message());
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "carlo: %s\n", e.what());
+    carlo::print_message(e.what());
   }
   return carlo::exit_bad_input;
 }

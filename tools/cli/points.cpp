@@ -7,7 +7,9 @@
 #include <sampling/point_sets.h>
 #include <terminal/columns.h>
 #include <terminal/interrupt.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
+#include <terminal/result_writer.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -151,13 +153,14 @@ QualityRun measure_all(const PointsCommandOptions& o, int& dim) {
 }
 
 void write(const PointsCommandOptions& o, const std::filesystem::path& folder, const QualityRun& m, int dim) {
+  ResultWriter results;
   const mc::PointList first{m.sets[0], static_cast<std::size_t>(dim)};
   const std::string title = fmt::format("{}, {} dimensions", o.file.empty() ? o.set : std::string("points"), dim);
   const auto file = [&](const char* name) { return (folder / name).string(); };
-  mc::write_file(file("points.csv"), points_csv(first));
-  mc::write_file(file("quality.csv"), quality_csv(m.rows));
-  mc::write_file(file("spectrum.csv"), spectrum_csv(m.rows));
-  if (dim >= 2) mc::write_file(file("points.svg"), projections_svg(first));
+  results.write(file("points.csv"), false, points_csv(first));
+  results.write(file("quality.csv"), false, quality_csv(m.rows));
+  results.write(file("spectrum.csv"), false, spectrum_csv(m.rows));
+  if (dim >= 2) results.write(file("points.svg"), false, projections_svg(first));
   else remove_plot(folder, "points");
   json all = {{"command", o.command},
               {"commit", commit},
@@ -169,10 +172,13 @@ void write(const PointsCommandOptions& o, const std::filesystem::path& folder, c
               {"rows", json::array()}};
   for (const QualityRow& r : m.rows) all["rows"].push_back(to_json(r));
   if (m.interrupted) all["interrupted"] = true;
-  mc::write_file(file("quality.json"), json_text(all));
-  mc::write_file(file("quality.gp"), quality_script(title, m.rows));
-  if (!draw_plot(folder, "quality", {"quality.csv", "spectrum.csv"}))
-    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  results.write(file("quality.json"), false, json_text(all));
+  results.write(file("quality.gp"), false, quality_script(title, m.rows));
+  results.attempt([&] {
+    if (!draw_plot(folder, "quality", {"quality.csv", "spectrum.csv"}))
+      warn("gnuplot is not installed; data and scripts are written, but no plots");
+  });
+  results.finish();
 }
 
 std::vector<Option> rows(PointsCommandOptions& o) {
@@ -183,12 +189,15 @@ std::vector<Option> rows(PointsCommandOptions& o) {
            {"SET", "", &o.set, "Point set by name, see --list."},
            {"-n,--count", "N", &o.count, "Number of points, 2 to 32768. The curves lead from 16 to N.", false, {own}},
            {"-d,--dim", "N", &o.dim, "Dimensions, 1 to 16.", false, {own}},
-           {"--points-file", "FILE", &o.file,
-            "Measure the points of this file instead: one point a row, coordinates in [0, 1)."},
+           input_file({"--points-file", "FILE", &o.file,
+                       "Measure the points of this file instead: one point a row, coordinates in [0, 1)."}),
            {"--rescale", "LO:HI", &o.scale, rescale_help},
-           {"-o,--output", "FOLDER", &o.output,
-            "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg and .png, and "
-            "spectrum.csv."},
+           output_folder({"-o,--output", "FOLDER", &o.output,
+                          "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg "
+                          "and .png, and "
+                          "spectrum.csv."},
+                         {"points.csv", "points.svg", "quality.csv", "quality.json", "quality.gp", "quality.svg",
+                          "quality.png", "spectrum.csv"}),
            {"--list", "", &o.list, "List the point sets, and stop."},
        }},
       {expert_options,
@@ -227,8 +236,9 @@ int run_points(const PointsCommandOptions& o) {
   if (dim > axes_drawn)
     fmt::print("points.svg shows the first {} of {} axes, {} of {} pairs\n", axes_drawn, dim,
                axes_drawn * (axes_drawn - 1) / 2, dim * (dim - 1) / 2);
-  write(o, folder, m, dim);
-  fmt::print("{}data and pictures: {}\n", m.interrupted ? "interrupted; " : "", folder.string());
+  const std::filesystem::path written = result_folder(folder, "quality.json", m.interrupted);
+  write(o, written, m, dim);
+  fmt::print("{}data and pictures: {}\n", m.interrupted ? "interrupted; " : "", written.string());
   return m.interrupted ? exit_interrupted : exit_ok;
 }
 

@@ -1,12 +1,17 @@
 #include <cli/render.h>
 #include <gallery/scenes.h>
 #include <gallery/strategy_strip.h>
+#include <options/files.h>
+#include <options/memory_option.h>
 #include <options/pixels.h>
 #include <picture/picture.h>
 #include <picture/resume.h>
 #include <terminal/columns.h>
+#include <terminal/file_lock.h>
 #include <terminal/interrupt.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
+#include <terminal/result_writer.h>
 
 #include <render/film/confidence_interval.h>
 #include <render/io/image/image_io.h>
@@ -60,11 +65,9 @@ std::string output_of(const RenderCommandOptions& options) {
   return name + (options.compare_strategies ? "-strategies.png" : ".exr");
 }
 
-// Checks the folder before hours of rendering, not after.
+// Tries the folder before hours of rendering, not after.
 void check_output(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  mc::require(folder.empty() || std::filesystem::is_directory(folder),
-              "cannot write '{}': the folder '{}' does not exist; create it first", path, folder.string());
+  mc::require_writable(path);
   const std::string extension = mc::lowercase_extension(path);
   mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
@@ -172,41 +175,58 @@ int compare_all(const RenderCommandOptions& options, const render::Scene& scene,
     fmt::print("interrupted: nothing was written\n");
     return exit_interrupted;
   }
-  render::write_image(output, strip);
+  ResultWriter results;
+  results.write(output, false, [&](const std::string& file) { render::write_image(file, strip); });
+  results.finish();
   fmt::print("{}x{}, {} samples per pixel; {:.3g} s\n{}{}: a row for each strategy, with {} samples per pixel\n",
              settings.width, settings.height, settings.spp, seconds, strategy_table(same_samples, same_time), output,
              fmt::join(strip_spp, ", "));
   return exit_ok;
 }
 
-// Throws Error where an output would overwrite a file of the scene.
+// Throws Error where an output would overwrite a file of the scene, or the other output.
 void refuse_inputs(const std::set<std::string>& files, const RenderCommandOptions& options, const std::string& output) {
-  for (const std::string& input : files)
-    for (const std::string& written : {output, options.intervals})
-      mc::require(written.empty() || !mc::is_same_path(written, input),
-                  "'{}' is a file of the scene and would be overwritten; name another with {}", written,
-                  written == output ? "-o" : "--intervals");
+  std::vector<UsedFile> used = {{output, "-o", true}};
+  if (!options.intervals.empty()) used.push_back({options.intervals, "--intervals", true});
+  for (const std::string& file : files) used.push_back({file, "a file of the scene"});
+  require_distinct_files(used);
 }
 
 void warn_where_light_is_missed(const render::Scene& scene, const render::RenderOptions& settings) {
   if (settings.aov.kind == render::Aov::radiance && misses_light(scene, settings.strategy, settings.max_depth))
-    std::fprintf(
-        stderr,
-        "carlo: warning: the strategy %s takes directions toward lights and importance targets only: it misses "
-        "the light of other surfaces and of the sky; use mis\n",
-        std::string(settings.strategy.name).c_str());
+    warn("the strategy {} takes directions toward lights and importance targets only: it misses the light of other "
+         "surfaces and of the sky; use mis",
+         settings.strategy.name);
 }
 
-// Throws Error for outputs that cannot be written, or that would overwrite each other.
+// Throws Error for outputs that cannot be written.
 void check_outputs(const RenderCommandOptions& options, const std::string& output) {
   check_output(output);
-  if (!options.intervals.empty()) {
-    check_output(options.intervals);
-    mc::require(!mc::is_same_path(options.intervals, output),
-                "--intervals '{}' would overwrite the picture; name another file", options.intervals);
-  }
+  if (!options.intervals.empty()) check_output(options.intervals);
   mc::require(!options.layers || has_extension(output, ".exr"), "--layers: '{}' cannot store them; write an .exr",
               output);
+}
+
+// Writes the picture and its intervals. Returns the name of the picture's file.
+//   partial result : does not replace a picture, unless the run went on from it, or it is partial and no better.
+std::string write_results(const RenderCommandOptions& options, const std::string& output,
+                          const render::RenderResult& result, bool is_resumed, const render::ToneMapping& tone) {
+  const auto spp_of = [&](const std::string& file) { return spp_of_partial(file, result.image.metadata); };
+  const bool is_beside = result.partial && !is_resumed && std::filesystem::is_regular_file(output) &&
+                         !(spp_of(output).value_or(HUGE_VAL) <= result.spp);
+  const bool is_lesser = is_beside && spp_of(partial_path(output)).value_or(0) > result.spp;
+  ResultWriter results;
+  std::string written = partial_path(output);
+  if (is_lesser) print_message(fmt::format("'{}' has more samples; nothing was written", written));
+  else
+    written = results.write(output, is_beside,
+                            [&](const std::string& file) { render::write_image(file, result.image, tone); });
+  if (!is_lesser && !options.intervals.empty() && !result.image.variance.empty()) {
+    const render::Image intervals = render::interval_half_widths(result.image, 0.95);
+    results.write(options.intervals, is_beside, [&](const std::string& file) { render::write_image(file, intervals); });
+  }
+  results.finish();
+  return written;
 }
 
 int run_render(const RenderCommandOptions& options) {
@@ -216,6 +236,7 @@ int run_render(const RenderCommandOptions& options) {
     return exit_ok;
   }
   mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
+  limit_memory(options.memory);
   const std::string output = output_of(options);
   check_outputs(options, output);
 
@@ -226,7 +247,7 @@ int run_render(const RenderCommandOptions& options) {
   refuse_inputs(files, options, output);
   warn_about_scene_file(read);
   if (scene.lights().empty() && defaults.aov.kind == render::Aov::radiance)
-    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
+    warn("{} has no light; the image will be black", file);
 
   warn_if_imprecise(file, scene);
 
@@ -248,7 +269,9 @@ int run_render(const RenderCommandOptions& options) {
   const render::Crop part = crop_of(settings);
   const RenderFingerprint fingerprint =
       render_fingerprint(file, options.dialect, options.variables, read, settings, part);
+  std::optional<FileLock> lock; // until the new picture is written
   std::optional<ResumeState> resumed;
+  if (options.resume && std::filesystem::exists(output)) lock.emplace(output);
   if (options.resume) resumed = load_resume_state(output, fingerprint, part, settings);
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
@@ -264,7 +287,7 @@ int run_render(const RenderCommandOptions& options) {
   if (const std::string invalid = invalid_samples_text(result, from); !invalid.empty()) {
     mc::require(options.allow_invalid, "{}: {}; nothing was written (--allow-invalid writes the image without them)",
                 file, invalid);
-    std::fprintf(stderr, "carlo: warning: %s\n", invalid.c_str());
+    warn("{}", invalid);
   }
   add_metadata(result, from);
   for (const auto& [key, value] : fingerprint) result.image.metadata[key] = value;
@@ -274,11 +297,9 @@ int run_render(const RenderCommandOptions& options) {
     result.image.layers = layers(scene, extent, origin, settings.threads);
   }
   if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);
-  render::write_image(output, result.image, tone);
-  if (!options.intervals.empty() && !result.image.variance.empty())
-    render::write_image(options.intervals, render::interval_half_widths(result.image, 0.95));
+  const std::string written = write_results(options, output, result, resumed.has_value(), tone);
 
-  fmt::print("{}", render_summary(output, result, options.target_error));
+  fmt::print("{}", render_summary(written, result, options.target_error));
   if (resumed)
     fmt::print("  with the earlier runs: {:.4g} samples per pixel of {} runs{}\n", resumed->spp + result.spp,
                resumed->runs + 1, result.image.variance.empty() ? "; no error bar, as one run took one sample" : "");

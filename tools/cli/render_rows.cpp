@@ -1,6 +1,7 @@
 /// The options of carlo render and the texts of its help.
 
 #include <cli/render.h>
+#include <options/memory_option.h>
 #include <terminal/columns.h>
 
 #include <render/integrator/strategy.h>
@@ -22,10 +23,12 @@ OptionGroup common_group(RenderCommandOptions& o) {
   return {
       common_options,
       {
-          {"SCENE", "FILE", &o.scene,
-           "Scene file (Mitsuba XML), a mesh alone (.obj, .ply, .serialized), or a name from carlo gallery --list."},
-          {"-o,--output", "FILE", &o.output,
-           "Image to write: .exr (radiance and variance), .pfm or .png (sRGB). Default: SCENE.exr in this folder."},
+          input_file({"SCENE", "FILE", &o.scene,
+                      "Scene file (Mitsuba XML), a mesh alone (.obj, .ply, .serialized), or a name from carlo gallery "
+                      "--list."}),
+          output_file({"-o,--output", "FILE", &o.output,
+                       "Image to write: .exr (radiance and variance), .pfm or .png (sRGB). Default: SCENE.exr in this "
+                       "folder."}),
           {"--spp", "N", &o.spp, "Samples per pixel. Default: the scene's."},
           {"--time", "SECONDS", &o.seconds, "Render for this wall-clock time.", false, {{"--spp", spp_reason}}},
           {"--target-error",
@@ -85,8 +88,8 @@ OptionGroup image_group(RenderCommandOptions& o) {
                "Curve of a PNG for bright light: clamp, reinhard or filmic. Default: the gallery scene's, else clamp."},
               {"--exposure", "STOPS", &o.exposure,
                "Brightness of a PNG in stops, or auto. Default: the gallery scene's, else 0."},
-              {"--intervals", "FILE", &o.intervals,
-               "Write half the widths of the pixels' 95 % confidence intervals to this image."},
+              output_file({"--intervals", "FILE", &o.intervals,
+                           "Write half the widths of the pixels' 95 % confidence intervals to this image."}),
               {"--layers", "", &o.layers,
                "Add channels to an EXR: normal N, position P, depth Z, albedo and shape id at the centre of each "
                "pixel."},
@@ -118,6 +121,7 @@ OptionGroup expert_group(RenderCommandOptions& o) {
               {"-D", "NAME=VALUE", &o.variables, "Value of $NAME in the scene. May be repeated."},
               {"--dialect", "NAME", &o.dialect, "Renderer whose defaults apply to the scene: mitsuba or lajolla."},
               {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+              memory_option(o.memory),
               {"--allow-invalid", "", &o.allow_invalid,
                "Write the image although some samples were not finite. They are left out."},
           }};

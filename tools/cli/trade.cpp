@@ -9,7 +9,9 @@
 #include <report/plot.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
+#include <terminal/result_writer.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -201,8 +203,11 @@ std::vector<Option> rows(TradeCommandOptions& o) {
        "CPU seconds to spend: \"0.001,0.01\"; with --cost rays millions of rays.",
        false,
        {{"--error", "one of them asks for the cheapest method, the other for the most accurate one"}}},
-      {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv."},
-      {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)."},
+      output_folder({"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv."},
+                    {"trade.json", "trade.csv", "trade.gp", "trade.svg", "trade.png", "front.csv"}),
+      output_folder(
+          {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)."},
+          {"index.html"}),
   };
   common.options.insert(common.options.end(), own.begin(), own.end());
   OptionGroup scene = scene_group(o.scene);
@@ -286,19 +291,24 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
   if (exact) fmt::print("  every method is exact to rounding: there is no error to plot\n");
   for (const std::string& warning : {m.truth_warning, variance_warning(m)})
     if (!warning.empty()) fmt::print("  warning: {}\n", warning);
-  const std::filesystem::path& folder = folders.data;
-  mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
-  mc::write_file((folder / "front.csv").string(), csv(a.pareto_front, m.cost));
-  mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
-  mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m, a));
-  if (!anything) remove_plot(folder, "trade");
-  else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
-    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  ResultWriter results;
+  const std::filesystem::path folder = result_folder(folders.data, "trade.json", m.interrupted);
+  results.write((folder / "trade.csv").string(), false, csv(all_points(m), m.cost));
+  results.write((folder / "front.csv").string(), false, csv(a.pareto_front, m.cost));
+  results.write((folder / "trade.json").string(), false, ordered_json_text(to_json(o, one)));
+  results.write((folder / "trade.gp").string(), false, script(one.target->integral.title, m, a));
+  results.attempt([&] {
+    if (!anything) remove_plot(folder, "trade");
+    else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
+      warn("gnuplot is not installed; data and scripts are written, but no plots");
+  });
   fmt::print("data and plots: {}\n", folder.string());
   if (!folders.page.empty()) {
-    write_convergence_page(folders.page, trade_header(o.command), {one});
-    fmt::print("page: {}\n", (folders.page / "index.html").string());
+    const std::filesystem::path page = result_folder(folders.page, "index.html", m.interrupted);
+    write_convergence_page(results, page, trade_header(o.command), {one});
+    fmt::print("page: {}\n", (page / "index.html").string());
   }
+  results.finish();
   const auto is_reached = [](const auto& f) { return !f.candidates.empty(); };
   const bool reached = std::all_of(a.by_error.begin(), a.by_error.end(), is_reached) &&
                        std::all_of(a.by_time.begin(), a.by_time.end(), is_reached);

@@ -140,6 +140,8 @@ UserInput read_user_input(const ValidateCommandOptions& o, const std::atomic<boo
   return user_input;
 }
 
+constexpr std::uint64_t most_samples = 1'000'000'000'000'000; // counts in doubles stay exact
+
 // Determines the number of samples. Throws Error before any work where it is impossible.
 void resolve_sample_count(ValidateCommandOptions& o, double alpha, std::uint64_t available) {
   if (o.detect) {
@@ -150,7 +152,8 @@ void resolve_sample_count(ValidateCommandOptions& o, double alpha, std::uint64_t
   mc::require(available == 0 || o.samples <= available,
               "{}: {} samples can be counted, the others choose the bins; --detect {} needs {}", o.samples_file,
               available, o.detect.value_or(0), o.samples);
-  mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
+  mc::require(o.samples >= 1000 && o.samples <= most_samples, "validate: --samples {} must lie in [1000, {:g}]",
+              o.samples, double(most_samples));
 }
 
 // The cases that finished, with their reports.
@@ -263,8 +266,6 @@ int run_validate(const ValidateCommandOptions& options) {
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
   const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
-  mc::require(o.json.empty() || o.json != o.junit, "--json and --junit would both write '{}'; name another file",
-              o.json);
   const ResultFile json(o.json), junit(o.junit);
   resolve_sample_count(o, alpha, user_input.samples);
   const std::string page =
@@ -272,7 +273,7 @@ int run_validate(const ValidateCommandOptions& options) {
 
   const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag());
   std::string errors;
-  for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\ncarlo: ") + u.error;
+  for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\n") + u.error;
   mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
   const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                           finished.cases,
@@ -280,12 +281,11 @@ int run_validate(const ValidateCommandOptions& options) {
                           finished.cases.size() + finished.unchecked.size() < cases.size(),
                           finished.unchecked};
   print_summary(run, cases.size(), o.verbose);
-  if (junit.is_wanted()) junit.write(validation_junit(run));
-  if (json.is_wanted()) json.write(validation_json(run));
-  if (!page.empty()) {
-    write_validation_page(page, run);
-    fmt::print("page: {}\n", page);
-  }
+  ResultWriter results;
+  if (junit.is_wanted()) junit.write(results, run.interrupted, validation_junit(run));
+  if (json.is_wanted()) json.write(results, run.interrupted, validation_json(run));
+  if (!page.empty()) fmt::print("page: {}\n", results.write(page, run.interrupted, validation_page(run)));
+  results.finish();
   mc::require(errors.empty(), "{}", errors);
   if (run.interrupted) return exit_interrupted;
   const bool passed = std::all_of(run.reports.begin(), run.reports.end(), [](const auto& r) { return r.passed(); });

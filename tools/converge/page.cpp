@@ -327,17 +327,19 @@ std::string safe_file_name(const std::string& text) {
   return safe;
 }
 
-void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head,
+void write_convergence_page(ResultWriter& results, const std::filesystem::path& folder, const PageHeader& head,
                             const std::vector<PageEntry>& all) {
   const std::string css = curve_color_css() + std::string(page_style);
   HtmlPage page{.tool = head.tool, .title = head.title, .style = css, .command = head.command};
   for (const PageEntry& one : all) {
     const Section section{one, curve_styles(*one.measurement, one.trade_results)};
     page.main += html_of(section) + "\n";
-    for (const Thumbnail& t : thumbnails(section)) render::write_image((folder / t.file).string(), t.image);
+    for (const Thumbnail& t : thumbnails(section))
+      results.write((folder / t.file).string(), false,
+                    [&](const std::string& file) { render::write_image(file, t.image); });
   }
   if (!all.empty()) page.footer = footer(all.front());
-  mc::write_file((folder / "index.html").string(), to_html(page));
+  results.write((folder / "index.html").string(), false, to_html(page));
 }
 
 } // namespace carlo

@@ -2,6 +2,7 @@
 /// The page of carlo converge and carlo trade. It needs no network and no script.
 
 #include <converge/picture_measurement.h>
+#include <terminal/result_writer.h>
 
 #include <filesystem>
 #include <string>
@@ -28,7 +29,7 @@ PageHeader trade_header(const std::string& command);
 /// Writes FOLDER/index.html. A section for each target contains the answer in sentences and a table (carlo trade);
 /// the error against N and against its cost, with 95 % bands and the slopes of theory; a table of all curves; for a
 /// scene the reference and a picture of each method, as PNG files beside the page.
-void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head,
+void write_convergence_page(ResultWriter& results, const std::filesystem::path& folder, const PageHeader& head,
                             const std::vector<PageEntry>& all);
 
 /// A file name made of `text`: at most 60 characters, all but letters, digits, _ and - replaced by _.

@@ -158,10 +158,12 @@ double path(Strategy bounce, Pcg& r) {
   return 0;
 }
 
-mc::Moments render(Strategy strategy, std::uint64_t paths, std::uint64_t seed, int threads) {
+mc::Moments render(Strategy strategy, std::uint64_t paths, std::uint64_t seed, int threads,
+                   const std::atomic<bool>* cancel) {
   constexpr std::uint64_t chunk = 4096;
   return mc::parallel_reduce<mc::Moments>((paths + chunk - 1) / chunk, threads, [&](std::size_t i) {
     mc::Moments m;
+    if (cancel && *cancel) return m;
     Pcg random(mc::hash(seed, i));
     for (std::uint64_t k = 0; k < chunk; ++k) m.add(path(strategy, random), i * chunk + k);
     return m;
@@ -170,7 +172,8 @@ mc::Moments render(Strategy strategy, std::uint64_t paths, std::uint64_t seed, i
 
 } // namespace
 
-std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads) {
+std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads,
+                                      const std::atomic<bool>* cancel) {
   struct RenderSetup {
     CornellBox box;
     Strategy strategy;
@@ -192,7 +195,9 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
   std::vector<CornellBox> boxes;
   for (const RenderSetup& way : ways) {
     const bool reference = boxes.empty();
-    const mc::Moments m = render(way.strategy, reference ? 4 * paths : paths, mc::hash(seed, boxes.size()), threads);
+    const mc::Moments m =
+        render(way.strategy, reference ? 4 * paths : paths, mc::hash(seed, boxes.size()), threads, cancel);
+    if (cancel && *cancel) return {};
     CornellBox b = way.box;
     b.mean = direct + m.mean();
     b.std_error = m.std_error();

@@ -1,6 +1,7 @@
 #pragma once
 /// The Cornell box of the books, rendered with the samplers that their chapters print and with correct ones.
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,8 +21,9 @@ struct CornellBox {
 /// many paths.
 ///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50
 ///            bounces.
-///   result : bitwise equal for any number of threads.
+///   result : bitwise equal for any number of threads. Empty where `cancel` became true before the end.
 ///   Source : [Shirley16].
-std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads);
+std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads,
+                                      const std::atomic<bool>* cancel = nullptr);
 
 } // namespace carlo

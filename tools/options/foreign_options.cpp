@@ -46,13 +46,14 @@ OptionGroup foreign_group(ForeignOptions& o) {
   return {
       "Your own integrands",
       {
-          {"--plugin",
-           "FILE",
-           &o.plugin,
-           "Take the integrands of this shared object, compiled against <mc/check/plugin.h>. INTEGRAND chooses some "
-           "by name.",
-           false,
-           {{"--command", "the integrand comes from one of them"}}},
+          input_file({"--plugin",
+                      "FILE",
+                      &o.plugin,
+                      "Take the integrands of this shared object, compiled against <mc/check/plugin.h>. INTEGRAND "
+                      "chooses some "
+                      "by name.",
+                      false,
+                      {{"--command", "the integrand comes from one of them"}}}),
           {"--command", "COMMAND", &o.command,
            "Ask this program for the integrand, as in \"python3 mine.py\". Each thread starts its own. INTEGRAND "
            "names the program's outputs, if it has several. tools/plugin/README.md describes questions and answers."},
@@ -90,12 +91,12 @@ OptionGroup importance_group(ImportanceOptions& o) {
                false,
                {{"--importance-plugin", "the density is that of one of them"},
                 {"--importance-command", "the density is that of one of them"}}},
-              {"--importance-plugin",
-               "FILE",
-               &o.plugin,
-               "Draw the points from a density of this shared object: the mean of integrand / density.",
-               false,
-               {{"--importance-command", "the density is that of one of them"}}},
+              input_file({"--importance-plugin",
+                          "FILE",
+                          &o.plugin,
+                          "Draw the points from a density of this shared object: the mean of integrand / density.",
+                          false,
+                          {{"--importance-command", "the density is that of one of them"}}}),
               {"--importance-command", "COMMAND", &o.command,
                "Draw the points from this program, which answers sample and pdf as for carlo validate --command."},
               {"--importance-name", "NAME", &o.name, "The density of the plugin, if it has several."},

@@ -93,7 +93,8 @@ std::string exit_codes(const std::string& failure, std::size_t columns) {
   HelpSection codes{"Exit codes", {{"0", "done"}}};
   if (!failure.empty()) codes.entries.push_back({"1", failure});
   codes.entries.push_back({"2", "bad usage, file or value; one line says what to do"});
-  codes.entries.push_back({"130, 143", "interrupted by Ctrl-C, by SIGTERM; the results so far are kept"});
+  codes.entries.push_back(
+      {"130, 143", "interrupted by Ctrl-C, by SIGTERM (by signal N: 128 + N); the results so far are kept"});
   codes.entries.push_back({"141", "nothing reads the output any more, as behind | head"});
   return section_text(codes, columns);
 }

@@ -26,9 +26,9 @@ enum ExitCode : int {
   exit_ok = 0,            ///< done, and every check passed
   exit_failed = 1,        ///< done, but a check failed or a wanted error was not reached
   exit_bad_input = 2,     ///< bad usage, file or value; one line on stderr names the remedy
-  exit_interrupted = 130, ///< Ctrl-C; the results so far are written, or printed, and marked as such
-  exit_closed_pipe = 141, ///< nothing reads standard output any more, as behind `| head`
-  exit_terminated = 143   ///< SIGTERM; subcommands return exit_interrupted, and main translates it
+  exit_interrupted = 130, ///< Ctrl-C; the results so far are written, or printed, and marked as such. After another
+                          ///< signal of Interrupt, main ends with 128 + its number, such as 143 for SIGTERM.
+  exit_closed_pipe = 141  ///< nothing reads standard output any more, as behind `| head`
 };
 
 /// Another option that cannot be given with this one.
@@ -36,6 +36,9 @@ struct Exclusion {
   std::string option; ///< "--spp"
   std::string reason; ///< "--time chooses the number of samples": the end of a message
 };
+
+/// Use of the file or folder that an option names.
+enum class FileUse { none, input, output, output_folder };
 
 /// One option, or a positional argument without a name.
 struct Option {
@@ -49,7 +52,17 @@ struct Option {
   bool required = false;
   std::vector<Exclusion> excludes = {};
   std::string group = {}; ///< heading in --help, see in_groups
+  FileUse use = FileUse::none;
+  std::vector<std::string> files = {}; ///< fixed names of files that are written into an output folder
 };
+
+/// The option of a file that is read.
+Option input_file(Option o);
+/// The option of a file that is written; "-" is standard output.
+Option output_file(Option o);
+/// The option of a folder into which files are written. List the names that are fixed; the subcommand checks the others
+/// by require_distinct_files() as soon as it can name them.
+Option output_folder(Option o, std::vector<std::string> files);
 
 /// Options under one heading of --help.
 struct OptionGroup {

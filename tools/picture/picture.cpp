@@ -1,5 +1,6 @@
 #include <picture/picture.h>
 #include <terminal/columns.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
 
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace carlo {
@@ -27,11 +27,13 @@ std::string interruption_text(const render::RenderResult& result) {
                      rows - result.missing_rows, rows);
 }
 
+std::string build_name() { return fmt::format("{} ({})", version, commit); }
+
 void add_metadata(render::RenderResult& result, const Provenance& from) {
   auto& metadata = result.image.metadata;
   metadata["carlo.scene"] = std::filesystem::path(from.scene).filename().string();
   metadata["carlo.command"] = from.command;
-  metadata["carlo.commit"] = fmt::format("{} ({})", version, commit);
+  metadata["carlo.commit"] = build_name();
   metadata["carlo.seed"] = fmt::format("{}", from.seed);
   metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", result.spp);
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
@@ -41,22 +43,19 @@ void add_metadata(render::RenderResult& result, const Provenance& from) {
 
 void warn_if_imprecise(const std::string& path, const render::Scene& scene) {
   if (const auto length = render::length_out_of_range(scene))
-    std::fprintf(stderr,
-                 "carlo: warning: %s: %s %.3g across; areas and squared distances in %s are precise from %.2g to %.2g "
-                 "across only. Its light may be wrong: scale the scene\n",
-                 path.c_str(), *length < 1 ? "a lamp is" : "the scene is", *length,
-                 sizeof(render::Float) == sizeof(float) ? "floats" : "doubles", render::min_length, render::max_length);
+    warn("{}: {} {:.3g} across; areas and squared distances in {} are precise from {:.2g} to {:.2g} across only. Its "
+         "light may be wrong: scale the scene",
+         path, *length < 1 ? "a lamp is" : "the scene is", *length,
+         sizeof(render::Float) == sizeof(float) ? "floats" : "doubles", render::min_length, render::max_length);
   const render::FloatResolution c = render::coarsest_resolution(scene);
   if (c.ratio <= render::max_resolution_ratio) return;
-  std::fprintf(
-      stderr,
-      "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, which are rounded to multiples of %.2g. "
-      "Its light and shadow may be wrong: move its parts closer together\n",
-      path.c_str(), c.size, c.distance, c.step);
+  warn("{}: a surface {:.3g} across has coordinates of {:.3g}, which are rounded to multiples of {:.2g}. Its light and "
+       "shadow may be wrong: move its parts closer together",
+       path, c.size, c.distance, c.step);
 }
 
 void warn_about_scene_file(const render::SceneFile& file) {
-  for (const std::string& warning : file.warnings) std::fprintf(stderr, "carlo: warning: %s\n", warning.c_str());
+  for (const std::string& warning : file.warnings) warn("{}", warning);
 }
 
 std::string samples_per_second(const render::RenderResult& result) {

@@ -1,15 +1,18 @@
+#include <picture/picture.h>
 #include <picture/resume.h>
+#include <terminal/message.h>
 
 #include <render/film/accumulate.h>
 #include <render/io/image/image_io.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 #include <mc/random/hash.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 
@@ -30,6 +33,16 @@ constexpr auto compared = std::to_array<FingerprintEntry>({
     {"carlo.variables", "-D"},
     {"carlo.finds", "a --strategy that finds"},
     {"carlo.scene_hash", "files of a scene whose bytes have the hash"},
+});
+
+constexpr double most_spp = 1e15;
+constexpr int most_runs = 1'000'000'000;
+
+// Metadata of which a difference is reported: the average remains right, but no single run has its bits.
+constexpr auto noted = std::to_array<FingerprintEntry>({
+    {"carlo.sampler", "--sampler"},
+    {"carlo.seed", "--seed"},
+    {"carlo.commit", "carlo"},
 });
 
 // A hash of the files' bytes, independent of their folders. "" where a file cannot be read again.
@@ -63,6 +76,9 @@ RenderFingerprint render_fingerprint(const std::string& file, const std::string&
           {"carlo.crop", fmt::format("{},{},{},{}", part.x, part.y, part.width, part.height)},
           {"carlo.max_depth", fmt::format("{}", settings.max_depth)},
           {"carlo.dialect", dialect},
+          {"carlo.commit", build_name()},
+          {"carlo.sampler", std::string(name(settings.sampler))},
+          {"carlo.seed", fmt::format("{}", settings.seed)},
           {"carlo.variables", fmt::format("{}", fmt::join(variables, " "))},
           {"carlo.finds",
            misses_light(read.scene, settings.strategy, settings.max_depth) ? "light towards lamps alone" : "all light"},
@@ -80,14 +96,21 @@ ResumeState load_resume_state(const std::string& path, const RenderFingerprint& 
     const auto found = resume_state.image.metadata.find(key);
     return found == resume_state.image.metadata.end() ? std::string() : found->second;
   };
-  resume_state.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
-  mc::require(resume_state.spp > 0,
+  mc::require(!text("carlo.samples_per_pixel").empty(),
               "--resume: '{}' does not state its samples per pixel; carlo render has not written it", path);
+  resume_state.spp = mc::parse_double(text("carlo.samples_per_pixel")).value_or(0);
+  mc::require(resume_state.spp > 0 && resume_state.spp <= most_spp,
+              "--resume: '{}' says '{}' samples per pixel; a number in (0, {:g}] is needed", path,
+              mc::printable(text("carlo.samples_per_pixel")), most_spp);
   mc::require(text("carlo.unsampled").empty(),
               "--resume: '{}' has pixels without a sample, as its run was interrupted early; render it again", path);
-  resume_state.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
+  const double runs = mc::parse_double(text("carlo.runs")).value_or(1);
+  mc::require(runs >= 1 && runs <= most_runs && runs == std::floor(runs),
+              "--resume: '{}' says '{}' runs; a whole number in [1, {}] is needed", path,
+              mc::printable(text("carlo.runs")), most_runs);
+  resume_state.runs = static_cast<int>(runs);
   mc::require(text("carlo.scene") == fingerprint.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
-              path, text("carlo.scene"), fingerprint.at("carlo.scene"));
+              path, mc::printable(text("carlo.scene")), fingerprint.at("carlo.scene"));
   mc::require(resume_state.image.width == part.width && resume_state.image.height == part.height,
               "--resume: '{}' has {}x{} pixels, but {}x{} are requested", path, resume_state.image.width,
               resume_state.image.height, part.width, part.height);
@@ -96,12 +119,29 @@ ResumeState load_resume_state(const std::string& path, const RenderFingerprint& 
                 "--resume: '{}' does not state its {}, which carlo render writes now; render it again", path, key);
     mc::require(text(key) == fingerprint.at(key),
                 "--resume: '{}' was rendered with {} '{}', not '{}'; ask for the same, or name another file", path,
-                words, text(key), fingerprint.at(key));
+                words, mc::printable(text(key)), fingerprint.at(key));
   }
   mc::require(settings.spp > 1 || settings.seconds || resume_state.image.variance.empty(),
               "--resume: one sample has no variance, and '{}' would lose its own; take --spp 2 or more", path);
+  for (const auto& [key, words] : noted)
+    if (const std::string old = text(key); !old.empty() && old != fingerprint.at(key))
+      warn("'{}' was rendered with {} '{}', not '{}'; both are averaged", path, words, old, fingerprint.at(key));
   settings.seed = mc::hash(settings.seed, std::uint64_t(resume_state.runs));
   return resume_state;
+}
+
+std::optional<double> spp_of_partial(const std::string& path, const std::map<std::string, std::string>& metadata) {
+  try {
+    const std::map<std::string, std::string> old = render::read_image(path).metadata;
+    const auto is_same = [&](const char* key) {
+      return old.contains(key) && metadata.contains(key) && old.at(key) == metadata.at(key);
+    };
+    const bool is_partial = old.contains("carlo.partial") && is_same("carlo.scene") &&
+                            std::all_of(compared.begin(), compared.end(), [&](auto& c) { return is_same(c.key); });
+    return is_partial ? mc::parse_double(old.at("carlo.samples_per_pixel")) : std::nullopt;
+  } catch (const std::exception&) { // no picture of carlo
+    return {};
+  }
 }
 
 void accumulate_into(const ResumeState& resume_state, render::RenderResult& result) {

@@ -6,6 +6,7 @@
 #include <render/render.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ struct ResumeState {
 ///              where one more sample would lose the variance.
 ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,
                               render::RenderOptions& settings);
+
+/// Samples per pixel of a partial picture of the same scene with the same settings. Returns nullopt for any other file,
+/// and where there is none.
+///   metadata : of the new picture.
+std::optional<double> spp_of_partial(const std::string& path, const std::map<std::string, std::string>& metadata);
 
 /// Averages the existing picture with the result of a run, which receives the mean.
 void accumulate_into(const ResumeState& resume_state, render::RenderResult& result);

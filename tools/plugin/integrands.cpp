@@ -24,7 +24,7 @@ namespace {
 
 json describe(const mc_integrand& f) {
   json one = {{"name", f.name},
-              {"title", f.title ? f.title : f.name},
+              {"title", mc::printable(f.title ? f.title : f.name, 200)},
               {"dim", unit_dimension(f)},
               {"batch", f.eval_many != nullptr},
               {"has_density", f.sample != nullptr},

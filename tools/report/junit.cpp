@@ -2,6 +2,8 @@
 
 #include <report/validate_output.h>
 
+#include <mc/core/text.h>
+
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
@@ -11,11 +13,17 @@ namespace carlo {
 
 namespace {
 
-// Replaces control characters, which XML cannot represent.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
-  return text;
+// Replaces bytes that XML cannot represent, such as control characters and bytes that are not UTF-8. Keeps line ends.
+std::string printable(std::string_view text) {
+  std::string lines;
+  for (bool more = true; more;) {
+    const std::size_t end = text.find('\n');
+    lines += mc::printable(text.substr(0, end), text.size());
+    more = end != text.npos;
+    if (more) lines += '\n';
+    if (more) text.remove_prefix(end + 1);
+  }
+  return lines;
 }
 
 pugi::xml_node add_node(pugi::xml_node suite, const Case& one) {

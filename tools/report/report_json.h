@@ -20,5 +20,6 @@ mc::Report report_from_json(const nlohmann::json& json);
 /// Returns text for a file, indented by one blank. Numbers that are not finite become null; bytes that are not UTF-8
 /// are replaced.
 std::string json_text(const nlohmann::json& json);
+std::string ordered_json_text(const nlohmann::ordered_json& json); ///< The same; keeps the order of the fields.
 
 } // namespace carlo

@@ -3,7 +3,6 @@
 #include <report/validate_page.h>
 #include <terminal/version.h>
 
-#include <mc/core/file.h>
 #include <mc/stats/multiple_testing.h>
 
 #include <fmt/format.h>
@@ -111,10 +110,10 @@ std::string repeat_command(const Case& c, const ValidationSettings& settings, st
 
 std::string validation_json(const ValidationRun& run) { return json_text(results(run)); }
 
-void write_validation_page(const std::string& file, const ValidationRun& run) {
+std::string validation_page(const ValidationRun& run) {
   json all = results(run);
   for (std::size_t i = 0; i < run.reports.size(); ++i) all["cases"][i] = page_case(all["cases"][i], run.reports[i]);
-  mc::write_file(file, fill_page_template(all.dump(-1, ' ', false, json::error_handler_t::replace)));
+  return fill_page_template(all.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 } // namespace carlo

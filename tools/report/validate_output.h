@@ -45,6 +45,6 @@ std::string validation_junit(const ValidationRun& run);
 /// Writes a page that needs no other file and no network. It contains the results and, for cases with evidence, maps of
 /// observed and expected counts, of residuals, and the p-value as a function of the number of samples. A map has at
 /// most 512 cells for a pass, else 4096.
-void write_validation_page(const std::string& file, const ValidationRun& run);
+std::string validation_page(const ValidationRun& run);
 
 } // namespace carlo

@@ -1,39 +1,32 @@
 #pragma once
-/// Ctrl-C and SIGTERM as a flag.
+/// Signals that ask carlo to end, as a flag.
 
 #include <atomic>
-#include <csignal>
 
 namespace carlo {
 
-/// During its lifetime, Ctrl-C (SIGINT) and the SIGTERM of timeout and batch queues set a flag. A second Ctrl-C ends
-/// the program immediately. A second SIGTERM has no effect, since timeout sends two.
+/// During its lifetime, the signals that ask a program to end set a flag, so that its results are not lost:
+///   SIGINT             : Ctrl-C. A second one ends the program immediately.
+///   SIGTERM            : of timeout, kill and batch queues. A second one has no effect, since timeout sends two.
+///   SIGHUP             : the terminal was closed. Later output to it goes to /dev/null instead of failing.
+///   SIGUSR1, SIGXCPU   : of batch queues before their time limit.
+/// A signal that is ignored when the lifetime begins, as SIGHUP under nohup, stays ignored.
 class Interrupt {
  public:
-  Interrupt() : old_interrupt_(std::signal(SIGINT, raise)), old_terminate_(std::signal(SIGTERM, raise)) {
-    raised_ = terminated_ = false;
-  }
-  ~Interrupt() {
-    std::signal(SIGINT, old_interrupt_);
-    std::signal(SIGTERM, old_terminate_);
-  }
+  Interrupt();
+  ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  const std::atomic<bool>* flag() const { return &raised_; }
-  /// Whether SIGTERM set the flag.
-  static bool is_terminated() { return terminated_; }
+  const std::atomic<bool>* flag() const { return &raised; }
+  /// Number of the signal that set the flag; 0 if none did.
+  static int signal() { return first_signal; }
 
  private:
-  static void raise(int signal) {
-    if (!raised_) terminated_ = signal == SIGTERM;
-    raised_ = true;
-    std::signal(SIGINT, SIG_DFL);
-  }
+  static void raise(int signal);
 
-  static inline std::atomic<bool> raised_ = false, terminated_ = false;
-  void (*old_interrupt_)(int);
-  void (*old_terminate_)(int);
+  static inline std::atomic<bool> raised = false;
+  static inline std::atomic<int> first_signal = 0;
 };
 
 } // namespace carlo

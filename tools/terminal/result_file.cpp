@@ -31,8 +31,11 @@ ResultFile::~ResultFile() {
   close(output_);
 }
 
-void ResultFile::write(std::string_view bytes) const {
-  if (output_ < 0) return mc::write_file(name_, bytes);
+void ResultFile::write(ResultWriter& results, bool is_partial, std::string_view bytes) const {
+  if (output_ < 0) {
+    results.write(name_, is_partial, bytes);
+    return;
+  }
   while (!bytes.empty()) {
     const ssize_t n = ::write(output_, bytes.data(), bytes.size());
     if (n < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "standard output");

@@ -1,6 +1,8 @@
 #pragma once
 /// The output file of an option like --json, which may be standard output.
 
+#include <terminal/result_writer.h>
+
 #include <string>
 #include <string_view>
 
@@ -17,8 +19,8 @@ class ResultFile {
   ResultFile& operator=(const ResultFile&) = delete;
 
   bool is_wanted() const { return !name_.empty(); }
-  /// Writes a file completely or not at all. Throws Error where that fails, std::system_error for standard output.
-  void write(std::string_view bytes) const;
+  /// Writes the result to its file with `results`, or to standard output: throws std::system_error where that fails.
+  void write(ResultWriter& results, bool is_partial, std::string_view bytes) const;
 
  private:
   std::string name_;

@@ -1,8 +1,11 @@
 #include <mc/core/text.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <numeric>
 
@@ -18,10 +21,40 @@ std::optional<double> parse_double(std::string_view text) {
   return std::isinf(rounded) ? std::nullopt : std::optional(rounded);
 }
 
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (c < ' ' || c > '~') c = '?';
-  return text;
+namespace {
+
+// Number of bytes of the UTF-8 character at the start of a text; 0 where none is or where a terminal would obey it.
+std::size_t printable_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+  const auto length = static_cast<std::size_t>(std::countl_one(byte(0)));
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
+  std::uint32_t code = byte(0) & (0xffu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};
+  const bool is_character = code >= least[length] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
+  const bool is_obeyed = code < 0xa0 || (code >= 0x200b && code <= 0x200f) || (code >= 0x2028 && code <= 0x202e) ||
+                         (code >= 0x2060 && code <= 0x206f) || code == 0x61c || code == 0xfeff;
+  return is_character && !is_obeyed ? length : 0;
+}
+
+} // namespace
+
+std::string printable(std::string_view text, std::size_t longest) {
+  if (text.size() > longest) {
+    const std::size_t kept = longest / 2;
+    return printable(text.substr(0, kept), longest) + " ... " + printable(text.substr(text.size() - kept), longest);
+  }
+  std::string line;
+  while (!text.empty()) {
+    const std::size_t length = printable_length(text);
+    line += length > 0 ? text.substr(0, length) : "?";
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return line;
 }
 
 std::string_view trimmed(std::string_view text) {

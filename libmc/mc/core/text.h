@@ -20,8 +20,9 @@ std::optional<double> parse_double(std::string_view text);
 /// The text without white space and line ends at its start and end.
 std::string_view trimmed(std::string_view text);
 
-/// Replaces every byte outside printable ASCII by a question mark, so that names from files fit in one-line messages.
-std::string printable(std::string text);
+/// The text as one line for a terminal. Replaces control characters, characters that change the direction of text, and
+/// bytes that are not UTF-8 by question marks. Cuts the middle of a text of more than `longest` bytes.
+std::string printable(std::string_view text, std::size_t longest = 2000);
 
 /// Splits at each separator and trims the parts: "a, b,,c" gives "a", "b", "", "c".
 std::vector<std::string_view> split(std::string_view text, char separator);

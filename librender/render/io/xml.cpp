@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 
 #include <pugixml.hpp>
 
@@ -24,7 +25,7 @@ std::string XmlElement::attribute_or(std::string_view key, std::string_view fall
 std::string XmlElement::where() const { return fmt::format("{}:{}", file, line); }
 
 void XmlElement::fail(const std::string& message) const {
-  throw mc::Error(fmt::format("{}: <{}>: {}", where(), tag, message));
+  throw mc::Error(mc::printable(fmt::format("{}: <{}>: {}", where(), tag, message)));
 }
 
 void XmlElement::require_all_used() const {
@@ -33,8 +34,8 @@ void XmlElement::require_all_used() const {
       const auto it = attributes_.find(key);
       return it == attributes_.end() ? std::string() : fmt::format(" {}=\"{}\"", key, it->second.value);
     };
-    throw mc::Error(
-        fmt::format("{}: <{}{}{}> is not supported here; remove it", where(), tag, value("type"), value("name")));
+    throw mc::Error(mc::printable(
+        fmt::format("{}: <{}{}{}> is not supported here; remove it", where(), tag, value("type"), value("name"))));
   }
   for (const auto& [key, attribute] : attributes_)
     if (!attribute.seen) fail(fmt::format("attribute {}=\"{}\" is not supported; remove it", key, attribute.value));
@@ -43,18 +44,29 @@ void XmlElement::require_all_used() const {
 
 namespace {
 
-int line_at(const std::string& text, std::ptrdiff_t offset) {
-  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
-  return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
-}
+// Lines of a text by binary search, since a scene asks for the line of each of its elements.
+class Lines {
+ public:
+  explicit Lines(const std::string& text) {
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) ends_.push_back(at);
+  }
+  // Line of a byte, from 1.
+  int at(std::ptrdiff_t offset) const {
+    const auto byte = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
+    return 1 + static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), byte) - ends_.begin());
+  }
+
+ private:
+  std::vector<std::size_t> ends_; // bytes of the line feeds
+};
 
 constexpr int deepest = 256; // far more than scenes need, far less than the stack allows
 
-XmlElement convert(const pugi::xml_node& node, const std::string& path, const std::string& text, int depth = 1) {
+XmlElement convert(const pugi::xml_node& node, const std::string& path, const Lines& lines, int depth = 1) {
   XmlElement element;
   element.tag = node.name();
   element.file = path;
-  element.line = line_at(text, node.offset_debug());
+  element.line = lines.at(node.offset_debug());
   if (depth > deepest) element.fail(fmt::format("elements are nested more than {} deep; flatten them", deepest));
   for (const auto& a : node.attributes()) {
     if (element.has(a.name()))
@@ -63,7 +75,7 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
     element.set(a.name(), a.value());
   }
   for (const auto& child : node.children()) {
-    if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text, depth + 1));
+    if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, lines, depth + 1));
     else element.fail("text between elements is not supported; remove it");
   }
   return element;
@@ -73,10 +85,11 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
 
 XmlElement read_xml(const std::string& path) {
   const std::string text = mc::read_file(path);
+  const Lines lines(text);
   pugi::xml_document document;
   // Parses a fragment: otherwise pugixml silently drops text and further elements next to the root.
   const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
-  mc::require(bool(result), "{}:{}: broken XML: {}", path, line_at(text, result.offset), result.description());
+  mc::require(bool(result), "{}:{}: broken XML: {}", path, lines.at(result.offset), result.description());
   const auto root = document.document_element();
   mc::require(bool(root), "{}: no XML element; a <scene> is needed", path);
   for (const auto& node : document.children()) {
@@ -85,10 +98,10 @@ XmlElement read_xml(const std::string& path) {
     const std::size_t start = std::min(stray.find_first_not_of(space), stray.size());
     throw mc::Error(fmt::format(
         "{}:{}: '{}' stands outside of <{}>; a file holds one element", path,
-        line_at(text, node.offset_debug() + static_cast<std::ptrdiff_t>(start)),
+        lines.at(node.offset_debug() + static_cast<std::ptrdiff_t>(start)),
         stray.substr(start, std::min<std::size_t>(stray.find_first_of(space, start) - start, 40)), root.name()));
   }
-  return convert(root, path, text);
+  return convert(root, path, lines);
 }
 
 } // namespace render

@@ -5,13 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <thread>
 
 namespace fs = std::filesystem;
 
@@ -54,10 +59,18 @@ TEST_F(FileTest, IsSamePathResolvesLinksAndDots) {
   const auto path = [&](const char* name) { return (folder / name).string(); };
   mc::write_file(path("a"), "a");
   fs::create_symlink(path("a"), path("link"));
+  fs::create_directory(path("b"));
   EXPECT_TRUE(mc::is_same_path(path("a"), path("./b/../a")));
   EXPECT_TRUE(mc::is_same_path(path("a"), path("link")));
   EXPECT_TRUE(mc::is_same_path(path("none"), path("./none")));
   EXPECT_FALSE(mc::is_same_path(path("a"), path("none")));
+  fs::create_hard_link(path("a"), path("hard"));
+  EXPECT_TRUE(mc::is_same_path(path("a"), path("hard")));
+  fs::create_symlink("new", path("to new"));
+  EXPECT_TRUE(mc::is_same_path(path("new"), path("to new")));
+  fs::create_symlink("circle", path("circle"));
+  EXPECT_FALSE(mc::is_same_path(path("circle"), path("circle")));
+  EXPECT_FALSE(mc::is_same_path(path("no folder/a"), path("a")));
 }
 
 TEST_F(FileTest, ReadTextDropsTheByteOrderMark) {
@@ -74,8 +87,8 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFile) {
   const std::string path = folder / "a.txt";
   mc::write_file(path, "old");
   EXPECT_THROW(mc::replace_file(path,
-                                [](const std::string& temporary) {
-                                  std::ofstream(temporary) << "half";
+                                [](std::FILE* stream) {
+                                  mc::write_bytes(stream, "half");
                                   throw mc::Error("interrupted");
                                 }),
                mc::Error);
@@ -118,19 +131,62 @@ TEST_F(FileTest, AnOutputFolderIsMade) {
             "cannot write '" + (made / "d.txt").string() + "': it is a folder; name a file in it");
 }
 
-// Opening /dev/full succeeds and writing to it fails, as on a full disk.
-TEST_F(FileTest, FullDisk_Throws) {
+// A limit of the file size fails a write as a full disk does.
+TEST_F(FileTest, FullDisk_ThrowsAndKeepsTheOldFile) {
   const std::string path = folder / "a.txt";
-  EXPECT_EQ(message([&] {
-              mc::replace_file(path, [&](const std::string& temporary) {
-                fs::create_symlink("/dev/full", temporary);
-                std::ofstream out(temporary);
-                out << "x" << std::flush;
-                mc::require(out.good(), "cannot write '{}': disk full", "a.txt");
-              });
-            }),
-            "cannot write 'a.txt': disk full");
-  EXPECT_EQ(files(), 0u);
+  mc::write_file(path, "old");
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const std::size_t size : {100u, 10'000u, 1'000'000u}) { // fails in a flush at the end, or before
+    const rlimit limit{10, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string text = message([&] { mc::write_file(path, std::string(size, 'x')); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(text, "cannot write '" + path + "': File too large");
+    EXPECT_EQ(mc::read_file(path), "old");
+    EXPECT_EQ(files(), 1u);
+  }
+}
+
+TEST_F(FileTest, TheStreamCanSeek) {
+  const std::string path = folder / "a.txt";
+  const auto write = [](std::FILE* stream) {
+    mc::write_bytes(stream, "0123");
+    ASSERT_EQ(std::fseek(stream, 1, SEEK_SET), 0);
+    mc::write_bytes(stream, "x");
+    std::fseek(stream, 0, SEEK_END);
+  };
+  mc::replace_file(path, write);
+  EXPECT_EQ(mc::read_file(path), "0x23");
+  const int log = open(path.c_str(), O_WRONLY | O_TRUNC);
+  mc::replace_file("/dev/fd/" + std::to_string(log), write);
+  close(log);
+  EXPECT_EQ(mc::read_file(path), "0x23");
+}
+
+// The name of the temporary file is random, the file is new and nobody else may write it.
+TEST_F(FileTest, TheTemporaryFileCannotBePredicted) {
+  const std::string path = folder / "a.txt";
+  std::set<std::string> names;
+  for (int i = 0; i < 20; ++i)
+    mc::replace_file(path, [&](std::FILE* stream) {
+      for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path() != path) names.insert(entry.path().filename());
+      EXPECT_EQ(std::fputc('x', stream), 'x');
+    });
+  EXPECT_EQ(names.size(), 20u);
+  for (const std::string& name : names) EXPECT_EQ(name.substr(0, 4), ".mc-");
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, RequireWritableTriesTheRealThing) {
+  EXPECT_EQ(message([] { mc::require_writable("/proc/a.txt"); }).substr(0, 27), "cannot write '/proc/a.txt':");
+  const std::string long_name = folder / std::string(250, 'a'), too_long = folder / std::string(256, 'a');
+  mc::require_writable(long_name);
+  mc::write_file(long_name, "x");
+  EXPECT_EQ(files(), 1u);
+  EXPECT_EQ(message([&] { mc::require_writable(too_long); }), "cannot write '" + too_long + "': File name too long");
 }
 
 TEST_F(FileTest, Link_IsFollowedAndKept) {
@@ -168,14 +224,26 @@ TEST_F(FileTest, NamedPipe_ReceivesTheBytesAndIsKept) {
   };
   mc::write_file(path, "bytes");
   EXPECT_EQ(received(), "bytes");
-  mc::replace_file(path, [](const std::string& temporary) {
-    EXPECT_EQ(fs::path(temporary).extension(), ".txt");
-    std::ofstream(temporary) << "by name";
-  });
-  EXPECT_EQ(received(), "by name");
+  mc::replace_file(path, [](std::FILE* stream) { mc::write_bytes(stream, "by stream"); });
+  EXPECT_EQ(received(), "by stream");
   close(reader);
   EXPECT_TRUE(fs::is_fifo(path));
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, NamedPipe_IsReadFromASlowWriterAndRefusedWithoutOne) {
+  const std::string path = folder / "pipe.txt";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    std::ofstream pipe(path);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    pipe << "late";
+  });
+  EXPECT_EQ(mc::read_file(path), "late");
+  writer.join();
+  EXPECT_EQ(message([&] { mc::read_file(path); }),
+            "cannot read '" + path + "': it is a pipe, and no program wrote to it within 5 s");
 }
 
 TEST_F(FileTest, OpenDescriptor_IsWrittenAtItsOffset) {
@@ -198,9 +266,7 @@ TEST_F(FileTest, Device_WriteFails_ThrowsAndKeepsTheDevice) {
     GTEST_SKIP() << "device nodes cannot be made here";
   const std::string refused = "cannot write '" + full + "': No space left on device";
   EXPECT_EQ(message([&] { mc::write_file(full, "x"); }), refused);
-  EXPECT_EQ(
-      message([&] { mc::replace_file(full, [](const std::string& temporary) { std::ofstream(temporary) << "x"; }); }),
-      refused);
+  EXPECT_EQ(message([&] { mc::replace_file(full, [](std::FILE* stream) { mc::write_bytes(stream, "x"); }); }), refused);
   mc::write_file(null, "x");
   EXPECT_TRUE(fs::is_character_file(full) && fs::is_character_file(null));
   EXPECT_EQ(files(), 2u);

@@ -103,9 +103,20 @@ TEST(Text, EditDistanceIsAMetric) {
   }
 }
 
-TEST(Text, PrintableIsOneLineOfAscii) {
-  EXPECT_EQ(mc::printable("a b~"), "a b~");
-  EXPECT_EQ(mc::printable("v\n\x1b[1m\x7f\xc3\xa9"), "v??[1m???");
+TEST(Text, PrintableIsOneLineThatNoTerminalObeys) {
+  EXPECT_EQ(mc::printable(""), "");
+  EXPECT_EQ(mc::printable("a b~ \xc3\xa9 \xe2\x89\xa5 \xf0\x9f\x98\x80"),
+            "a b~ \xc3\xa9 \xe2\x89\xa5 \xf0\x9f\x98\x80");
+  EXPECT_EQ(mc::printable("v\n\x1b[1m\x7f\t"), "v??[1m??");
+  EXPECT_EQ(mc::printable("\xff \xc3 \xe2\x89 \xc0\xaf \xed\xa0\x80 \xf5\x80\x80\x80"), "? ? ?? ?? ??? ????")
+      << "no UTF-8";
+  EXPECT_EQ(mc::printable("\xc2\x9b"
+                          "31m"),
+            "??31m")
+      << "the control character CSI";
+  EXPECT_EQ(mc::printable("\xe2\x80\xae"), "???") << "right to left";
+  EXPECT_EQ(mc::printable("0123456789", 10), "0123456789");
+  EXPECT_EQ(mc::printable("0123456789a", 10), "01234 ... 6789a");
 }
 
 } // namespace

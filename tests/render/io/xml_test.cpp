@@ -2,6 +2,8 @@
 
 #include "support/files.h"
 
+#include <chrono>
+
 namespace {
 
 struct Xml : support::ScratchTest {};
@@ -14,6 +16,17 @@ TEST_F(Xml, KnowsItsLines) {
   ASSERT_EQ(root.children.size(), 1u);
   EXPECT_EQ(root.children[0].line, 3);
   EXPECT_EQ(root.children[0].attribute_or("id", "none"), "none");
+}
+
+// The time is linear in the number of elements: counting lines from the start for each would take minutes.
+TEST_F(Xml, ManyElements_AreReadInLinearTime) {
+  std::string text = "<scene>\n";
+  for (int i = 0; i < 200'000; ++i) text += "<shape type=\"sphere\"/>\n";
+  const auto start = std::chrono::steady_clock::now();
+  const auto root = render::read_xml(write("a.xml", text + "</scene>"));
+  EXPECT_LE(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  ASSERT_EQ(root.children.size(), 200'000u);
+  EXPECT_EQ(root.children.back().line, 200'001);
 }
 
 TEST_F(Xml, UnusedElements_AreReported) {

@@ -108,7 +108,7 @@ TEST_F(Compare, MetricsAndDifferenceImage) {
   EXPECT_EQ(compare("--metric mean_ratio").output, "1.5\n");
   EXPECT_EQ(compare("--metric relmse --diff " + path("d.pfm")).output, "0.240385\n"); // 0.0625 / (0.25 + 0.01)
   EXPECT_EQ(render::read_image(path("d.pfm")).at(3, 1)[2], render::Float(0.25));
-  EXPECT_THAT(compare("--diff " + path("./a.exr")).output, HasSubstr("would overwrite an image that is compared"));
+  EXPECT_THAT(compare("--diff " + path("./a.exr")).output, HasSubstr("a.exr' over A; name another file"));
   save("a.exr", render::Image(4, 2));
   save("b.exr", render::Image(4, 2));
   EXPECT_EQ(compare("--metric mean_ratio").output, "1\n");

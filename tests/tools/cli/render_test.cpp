@@ -50,9 +50,8 @@ TEST_F(RenderCommand, BadInput_IsReportedInOneLine) {
   expect_refused(cbox() + " --branches 1025", {"--branches 1025 must be 1 to 1024"});
   expect_refused(cbox() + " --branches 2 --tiles", {"--branches", "--tiles"});
   expect_refused(cbox() + " --spp 1 --intervals " + path("w.pfm"), {"--intervals", "two or more"});
-  expect_refused(cbox() + " --intervals " + path("./out.pfm"), {"--intervals", "out.pfm", "overwrite the picture"});
-  expect_refused(scenes + "cbox.xml -o nowhere.exr --intervals ./nowhere.exr",
-                 {"--intervals", "overwrite the picture"});
+  expect_refused(cbox() + " --intervals " + path("./out.pfm"), {"--intervals", "out.pfm", "would both write"});
+  expect_refused(scenes + "cbox.xml -o nowhere.exr --intervals ./nowhere.exr", {"--intervals", "would both write"});
   expect_refused(cbox() + " --threads -2", {"--threads -2"});
   expect_refused(cbox() + " --crop 1,2,3", {"--crop '1,2,3'", "X,Y,WIDTH,HEIGHT"});
   expect_refused(cbox() + " --crop 0,0,4294967297,1", {"--crop '0,0,4294967297,1'"});
@@ -193,7 +192,7 @@ TEST_F(RenderCommand, SceneFiles_AreNotOverwritten) {
   for (const std::string& arguments :
        {" -o " + path("sky.exr"), " -o " + path("a.exr") + " --intervals " + path("./sky.exr")})
     EXPECT_THAT(run_carlo("render " + scene + " --size 4x4 --spp 2" + arguments).output,
-                HasSubstr("sky.exr' is a file of the scene and would be overwritten; name another with -"));
+                HasSubstr("sky.exr' over a file of the scene; name another file"));
   EXPECT_EQ(mc::read_file(path("sky.exr")), before);
 }
 
@@ -209,7 +208,10 @@ TEST_F(RenderCommand, Resume_RejectsAnotherPicture) {
   const std::string line = "render " + write("s.xml", text) + " --spp 2 -o " + path("r.exr"),
                     same = " --crop 2,2,8,8 --size 16x12 --resume";
   ASSERT_EQ(run_carlo(line + " --crop 2,2,8,8 --size 16x12").exit_code, 0);
-  EXPECT_EQ(run_carlo(line + same + " --sampler independent --strategy nee --seed 3").exit_code, 0);
+  const support::ProcessResult other = run_carlo(line + same + " --sampler independent --strategy nee --seed 3");
+  EXPECT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_THAT(other.output, HasSubstr("r.exr' was rendered with --sampler 'sobol', not 'independent'; both are"));
+  EXPECT_THAT(other.output, HasSubstr("r.exr' was rendered with --seed '0', not '3'; both are averaged"));
   const auto refused = [&](const std::string& arguments, const std::string& words) {
     const support::ProcessResult run = run_carlo(line + arguments);
     EXPECT_EQ(run.exit_code, 2) << run.output;
@@ -225,6 +227,16 @@ TEST_F(RenderCommand, Resume_RejectsAnotherPicture) {
   write("s.xml", text + "<!-- other -->");
   refused(same, "was rendered with files of a scene whose bytes have the hash '");
   render::Image older = render::read_image(path("r.exr"));
+  for (const std::string spp : {"inf", "1e99", "nan", "-2", "2x"}) {
+    older.metadata["carlo.samples_per_pixel"] = spp;
+    render::write_image(path("r.exr"), older);
+    refused(same, "says '" + spp + "' samples per pixel; a number in (0, 1e+15] is needed");
+  }
+  older.metadata["carlo.samples_per_pixel"] = "2";
+  older.metadata["carlo.runs"] = "1e99";
+  render::write_image(path("r.exr"), older);
+  refused(same, "says '1e99' runs");
+  older.metadata["carlo.runs"] = "1";
   older.metadata.erase("carlo.max_depth");
   render::write_image(path("r.exr"), older);
   refused(same, "does not state its carlo.max_depth");

@@ -62,7 +62,9 @@ struct PictureExample {
 
 struct ConvergencePage : support::ScratchTest {
   std::string page(const PageHeader& head, const std::vector<PageEntry>& all) const {
-    write_convergence_page(path("."), head, all);
+    ResultWriter results;
+    write_convergence_page(results, path("."), head, all);
+    results.finish();
     return mc::read_file(path("index.html"));
   }
 };

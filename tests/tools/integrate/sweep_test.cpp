@@ -81,6 +81,17 @@ TEST_F(Sweep, BoundsMayUseItsParameter) {
   EXPECT_THAT(support::run_carlo("integrate a*k -d k=1..3 --set a=1:2:1").output, HasSubstr("12             ± 0"));
 }
 
+// The integral at a = 0 is 0 at every point: its error stays unknown, but it does not cost all calls at each value.
+TEST_F(Sweep, SharesItsCalls) {
+  const support::ProcessResult r = support::run_carlo(
+      "integrate a*x -d x=0:1 --method rqmc --max-calls 1e5 --set a=0:10:1 --json " + path("r.json"));
+  EXPECT_EQ(r.exit_code, 1);
+  EXPECT_THAT(r.output, testing::AllOf(HasSubstr("unseen"), HasSubstr("stopped: max_calls")));
+  const nlohmann::json j = nlohmann::json::parse(mc::read_file(path("r.json")));
+  EXPECT_LE(j["calls"], 11 * 16384);
+  EXPECT_EQ(j["outputs"][0]["rounds"].back()["calls"], j["calls"]);
+}
+
 TEST_F(Sweep, BadCombinations_AreRefused) {
   const auto says = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).output; };
   EXPECT_THAT(says("a*x -d x=0:1 --set a=1:2:1 --histogram x=4"), HasSubstr("of one integrand; 2 were given"));

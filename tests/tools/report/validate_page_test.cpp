@@ -89,7 +89,7 @@ struct ValidatePage : testing::Test {
   void SetUp() override {
     fs::create_directories(folder);
     const std::vector<const carlo::Case*> cases = results().pointers();
-    carlo::write_validation_page(file, {results().settings, cases, results().reports});
+    mc::write_file(file, carlo::validation_page({results().settings, cases, results().reports}));
   }
   void TearDown() override { fs::remove_all(folder); }
 
@@ -124,7 +124,7 @@ TEST_F(ValidatePage, CasesThatPassAreSmall) {
   const auto size_of = [&](std::size_t count) {
     const std::vector<const carlo::Case*> cases(count, &results().cases[0]);
     const std::vector<mc::Report> reports(count, results().reports[0]);
-    carlo::write_validation_page(file, {results().settings, cases, reports});
+    mc::write_file(file, carlo::validation_page({results().settings, cases, reports}));
     return mc::read_file(file).size();
   };
   EXPECT_LE(size_of(2) - size_of(1), 3'000'000u / 446);

@@ -18,10 +18,11 @@ TEST_F(ResultFileTest, Dash_IsStandardOutputWithNothingElse) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   std::printf("before ");
+  carlo::ResultWriter results;
   {
     const ResultFile file("-");
     std::printf("words");
-    file.write("result");
+    file.write(results, true, "result");
     std::printf(" more");
   }
   std::printf(" after");
@@ -34,7 +35,9 @@ TEST_F(ResultFileTest, Name_IsAFile) {
   const ResultFile file(path("r.json"));
   EXPECT_TRUE(file.is_wanted());
   EXPECT_FALSE(std::filesystem::exists(path("r.json"))) << "nothing is known yet";
-  file.write("result");
+  carlo::ResultWriter results;
+  file.write(results, false, "result");
+  results.finish();
   EXPECT_EQ(mc::read_file(path("r.json")), "result");
   EXPECT_FALSE(ResultFile("").is_wanted());
   EXPECT_NE(support::error_of([] { ResultFile("/nonexistent/r.json"); }), "");

@@ -1,6 +1,8 @@
 #include <render/io/image/formats.h>
 
 #include <mc/core/error.h>
+#include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <ImfChannelList.h>
@@ -9,6 +11,7 @@
 #include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
@@ -17,7 +20,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <string>
 #include <tuple>
@@ -30,6 +36,16 @@ namespace {
 constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
 constexpr const char* estimates_key = "estimatesPerPixel";
 constexpr const char* noise_area_key = "noiseArea";
+
+// Throws Error for a channel of colour that is subsampled.
+void require_whole_colours(const Imf::ChannelList& list) {
+  for (auto c = list.begin(); c != list.end(); ++c)
+    mc::require((c.channel().xSampling == 1 && c.channel().ySampling == 1) ||
+                    (std::find(channels.begin(), channels.end(), std::string_view(c.name())) == channels.end() &&
+                     std::string_view(c.name()) != "Y"),
+                "EXR stores the channel {} for one pixel in {}; save it for every pixel", c.name(),
+                c.channel().xSampling * c.channel().ySampling);
+}
 
 // Names of the channels that are not subsampled.
 std::vector<std::string> whole_channels(const Imf::ChannelList& list) {
@@ -89,9 +105,26 @@ struct Planes {
   Imf::Slice slice(std::size_t c) { return Imf::Slice::Make(Imf::FLOAT, plane[c].data(), window); }
 };
 
+// A stream of replace_file() for OpenEXR, which seeks back to the table of its lines at the end.
+class OutputStream : public Imf::OStream {
+ public:
+  explicit OutputStream(std::FILE* stream) : OStream("the stream"), stream_(stream) {}
+  void write(const char bytes[], int size) override {
+    mc::write_bytes(stream_, {bytes, static_cast<std::size_t>(size)});
+  }
+  std::uint64_t tellp() override { return static_cast<std::uint64_t>(ftello(stream_)); }
+  void seekp(std::uint64_t place) override {
+    const bool is_there = fseeko(stream_, static_cast<off_t>(place), SEEK_SET) == 0;
+    mc::require(is_there, "{}", std::strerror(errno));
+  }
+
+ private:
+  std::FILE* stream_;
+};
+
 } // namespace
 
-void write_exr(const std::string& path, const Image& image) {
+void write_exr(std::FILE* stream, const Image& image) {
   try {
     const std::size_t count = image.variance.empty() ? 3 : 6;
     Imf::Header header(image.width, image.height);
@@ -114,11 +147,14 @@ void write_exr(const std::string& path, const Image& image) {
     for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
     if (image.estimates > 0) header.insert(estimates_key, Imf::IntAttribute(static_cast<int>(image.estimates)));
     if (image.noise_area != 1) header.insert(noise_area_key, Imf::DoubleAttribute(image.noise_area));
-    Imf::OutputFile file(path.c_str(), header);
+    OutputStream output(stream);
+    Imf::OutputFile file(output, header);
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
+  } catch (const mc::Error&) {
+    throw;
   } catch (const std::exception& e) {
-    throw mc::Error(fmt::format("cannot write EXR: {}", e.what()));
+    throw mc::Error(fmt::format("EXR: {}", e.what()));
   }
 }
 
@@ -127,6 +163,7 @@ Image read_exr(const std::string& path) {
     Imf::InputFile file(path.c_str());
     require_our_colours(file.header());
     require_no_cube(file.header());
+    require_whole_colours(file.header().channels());
     require_size(file.header(), path);
     const auto window = file.header().dataWindow();
     const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
@@ -138,6 +175,8 @@ Image read_exr(const std::string& path) {
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     for (std::size_t c = 0; c < 3; ++c)
       mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
+    const double floats = 2 * (with_variance ? 6 : 3) + double(names.size()); // of planes and pixels
+    mc::require_memory(4 * floats * width * height, fmt::format("{}x{} pixels", width, height));
     Planes planes(with_variance ? 6 : 3, window);
     Imf::FrameBuffer frame;
     if (grey) frame.insert("Y", planes.slice(0));

@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <algorithm>
@@ -149,6 +150,8 @@ Image read_hdr(const std::string& path) {
   // Run lengths allow any size, but an image from so few bytes would be nearly constant.
   mc::require(double(layout.width) * layout.height <= 4096.0 * double(rest.bytes.size()),
               "HDR says {}x{}, which its {} bytes cannot hold", layout.width, layout.height, bytes.size());
+  mc::require_memory(double(sizeof(Spectrum)) * layout.width * layout.height,
+                     fmt::format("{}x{} pixels", layout.width, layout.height));
   Image image(layout.width, layout.height);
   const int lines = layout.in_columns ? layout.width : layout.height;
   std::vector<Rgbe> line(static_cast<std::size_t>(layout.in_columns ? layout.height : layout.width));

@@ -13,7 +13,7 @@ namespace render {
 namespace {
 
 using Read = Image (*)(const std::string& path);
-using Write = void (*)(const std::string& path, const Image& image, const ToneMapping& tone);
+using Write = void (*)(std::FILE* stream, const Image& image, const ToneMapping& tone);
 
 struct Format {
   std::string_view extension;
@@ -21,8 +21,8 @@ struct Format {
   Write write;
 };
 
-void write_exr(const std::string& path, const Image& image, const ToneMapping&) { formats::write_exr(path, image); }
-void write_pfm(const std::string& path, const Image& image, const ToneMapping&) { formats::write_pfm(path, image); }
+void write_exr(std::FILE* stream, const Image& image, const ToneMapping&) { formats::write_exr(stream, image); }
+void write_pfm(std::FILE* stream, const Image& image, const ToneMapping&) { formats::write_pfm(stream, image); }
 
 constexpr std::array<Format, 6> known_formats = {{
     {".exr", formats::read_exr, write_exr},
@@ -47,17 +47,11 @@ template <class Can> const Format& format_of(const std::string& path, std::strin
                               fmt::join(usable, ", "), last));
 }
 
-// Errors name the requested file, not the temporary one.
-void write_to(const std::string& temporary, const std::string& path, const Format& format, const Image& image,
-              const ToneMapping& tone) {
-  mc::with_context(path, [&] { format.write(temporary, image, tone); });
-}
-
 } // namespace
 
 void write_image(const std::string& path, const Image& image, const ToneMapping& tone) {
   const Format& format = format_of(path, "write", [](const Format& f) { return f.write != nullptr; });
-  mc::replace_file(path, [&](const std::string& temporary) { write_to(temporary, path, format, image, tone); });
+  mc::replace_file(path, [&](std::FILE* stream) { format.write(stream, image, tone); });
 }
 
 Image read_image(const std::string& path) {

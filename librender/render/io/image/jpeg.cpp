@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 
 #include <turbojpeg.h>
 
@@ -29,6 +30,7 @@ Image read_jpeg(const std::string& path) {
   // A block of 64 pixels takes at least one bit.
   mc::require(double(width) * double(height) <= 64 * 8 * double(file.size()),
               "JPEG says {}x{}, which its {} bytes cannot hold", width, height, file.size());
+  mc::require_memory((3.0 + sizeof(Spectrum)) * width * height, fmt::format("{}x{} pixels", width, height));
   std::vector<unsigned char> codes(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   require_done(
       tjDecompress2(decoder.get(), data, file.size(), codes.data(), width, 0, height, TJPF_RGB, TJFLAG_LIMITSCANS));

@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <algorithm>
@@ -13,13 +14,13 @@
 namespace render::formats {
 
 // Portable float map: "PF", width, height, scale, then rows from the bottom up. A negative scale means little endian;
-// its size multiplies the values. Written by mc::write_file to the temporary name of the caller, so a full disk is
-// detected.
-void write_pfm(const std::string& path, const Image& image) {
+// its size multiplies the values.
+void write_pfm(std::FILE* stream, const Image& image) {
   static_assert(std::endian::native == std::endian::little);
-  std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
-  bytes.reserve(bytes.size() + image.pixels.size() * 12);
-  for (int y = image.height - 1; y >= 0; --y)
+  mc::write_bytes(stream, fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height));
+  std::string bytes;
+  for (int y = image.height - 1; y >= 0; --y) {
+    bytes.clear();
     for (int x = 0; x < image.width; ++x)
       for (int c = 0; c < 3; ++c) {
         const float value = static_cast<float>(image.at(x, y)[c]);
@@ -27,7 +28,8 @@ void write_pfm(const std::string& path, const Image& image) {
         std::memcpy(raw, &value, 4);
         bytes.append(raw, 4);
       }
-  mc::write_file(path, bytes);
+    mc::write_bytes(stream, bytes);
+  }
 }
 
 namespace {
@@ -70,6 +72,7 @@ Image read_pfm(const std::string& path) {
   mc::require(double(bytes.size()) == double(start) + needed,
               "PFM data goes on: {} bytes where {}x{} pixels of {} floats need {}", bytes.size() - start, width, height,
               channels, needed);
+  mc::require_memory(double(sizeof(Spectrum)) * width * height, fmt::format("{}x{} pixels", width, height));
   Image image(width, height);
   const char* raw = bytes.data() + start;
   for (int y = height - 1; y >= 0; --y)

@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 
 #include <png.h>
 
@@ -171,7 +172,7 @@ png_text text_of(const std::string& key, const std::string& value) {
 
 } // namespace
 
-void write_png(const std::string& path, const Image& image, const ToneMapping& tone) {
+void write_png(std::FILE* stream, const Image& image, const ToneMapping& tone) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * 3);
   for (const Spectrum& p : image.pixels)
@@ -179,7 +180,7 @@ void write_png(const std::string& path, const Image& image, const ToneMapping& t
   auto rows = rows_of(bytes, 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
   std::vector<png_text> texts;
   for (const auto& [key, value] : image.metadata) texts.push_back(text_of(key, value));
-  mc::write_file(path, Writer().encode(image.width, image.height, rows, texts));
+  mc::write_bytes(stream, Writer().encode(image.width, image.height, rows, texts));
 }
 
 Image read_png(const std::string& path) {
@@ -189,6 +190,8 @@ Image read_png(const std::string& path) {
   // Deflate expands a byte to at most 1032 bytes.
   mc::require(reader.packed_row_bytes() * height <= 1032 * file.size(),
               "PNG says {}x{}, which its {} bytes cannot hold", reader.width(), height, file.size());
+  mc::require_memory(double(height) * (double(row_bytes) + double(sizeof(Spectrum) * reader.width())),
+                     fmt::format("{}x{} pixels", reader.width(), height));
   std::vector<std::uint8_t> bytes(row_bytes * height);
   auto rows = rows_of(bytes, row_bytes, height);
   reader.read(rows);

@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 
 #include <zlib.h>
 
@@ -124,6 +125,10 @@ MeshFile read_serialized(const std::string& path, int index) {
     const auto vertices = data.take<std::uint64_t>(), triangles = data.take<std::uint64_t>();
     mc::require(vertices <= 0xffffffff && triangles <= 0xffffffff, "{} vertices and {} triangles are too many",
                 vertices, triangles);
+    // Numbers as stored, and as the mesh keeps them.
+    const double per_vertex = 3.0 * ((flags & in_double) ? sizeof(double) : sizeof(float)) + 2 * sizeof(Vec3d) + 8;
+    mc::require_memory(per_vertex * double(vertices) + 24.0 * double(triangles),
+                       fmt::format("{} vertices and {} triangles", vertices, triangles));
     MeshFile mesh;
     mesh.missing_uv_reason = "it has none";
     mesh.meshes = meshes;
