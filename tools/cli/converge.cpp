@@ -184,7 +184,8 @@ void write_slopes(ResultWriter& results, const std::filesystem::path& output, co
 
 // Throws Error where the files of a target would replace an input.
 void refuse_inputs(const ConvergeCommandOptions& o, const std::vector<IntegralTarget>& targets) {
-  std::vector<UsedFile> files = {{o.points, "the file of --points-file"}, {o.integral.plugin, "the file of --plugin"}};
+  std::vector<UsedFile> files = {{o.points, "the file of --points-file"},
+                                 {o.integral.foreign.plugin, "the file of --plugin"}};
   for (const std::string& word : o.integral.integrands) files.push_back({word, "an input"});
   for (const IntegralTarget& target : targets)
     for (const char* extension : {".csv", ".json", ".gp", ".svg", ".png"})
