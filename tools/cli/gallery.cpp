@@ -1,5 +1,6 @@
 #include <gallery/contact_sheet.h>
 #include <gallery/page.h>
+#include <options/files.h>
 #include <options/subcommand.h>
 #include <picture/picture.h>
 #include <picture/resume.h>
@@ -18,6 +19,7 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace carlo {
 
@@ -145,6 +147,7 @@ class GalleryRun {
       jobs.push_back(read(*scene, options_, cancel_));
       work_ += jobs.back().work;
     }
+    refuse_inputs(jobs);
     for (SceneJob& job : jobs) {
       if (!render_one(job)) break;
       done_ += job.work;
@@ -157,6 +160,18 @@ class GalleryRun {
   ResultWriter& results() { return results_; }
 
  private:
+  // Throws Error where a picture would replace a file of a scene.
+  void refuse_inputs(const std::vector<SceneJob>& jobs) const {
+    std::vector<UsedFile> files;
+    for (const SceneJob& job : jobs)
+      for (const char* extension : {".exr", ".png"})
+        files.push_back({(folder_ / std::string(job.scene->name)).string() + extension, "-o", true});
+    std::set<std::string> inputs;
+    for (const SceneJob& job : jobs) inputs.insert(job.file.files.begin(), job.file.files.end());
+    for (const std::string& input : inputs) files.push_back({input, "a file of a scene"});
+    require_distinct_files(files);
+  }
+
   // Returns false when interrupted; an unfinished scene is not kept.
   bool render_one(SceneJob& a) {
     const std::string title(a.scene->name);

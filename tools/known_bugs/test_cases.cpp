@@ -59,11 +59,19 @@ mc::Check mean_check(const mc::Moments& moments, double value, double alpha) {
   return check;
 }
 
+// Calls the function of the options that may end a check, every 2^16 samples.
+void look_for_end(const CaseOptions& c, std::uint64_t sample) {
+  if (c.before_draws && sample % 65536 == 0) (*c.before_draws)();
+}
+
 mc::Report mean_report(double value, const SampleNumber& estimator, const CaseOptions& c) {
   mc::Report report = report_of(c);
   mc::Moments moments;
   mc::Pcg random(c.seed);
-  for (std::uint64_t i = 0; i < c.samples; ++i) moments.add(estimator(random), i);
+  for (std::uint64_t i = 0; i < c.samples; ++i) {
+    look_for_end(c, i);
+    moments.add(estimator(random), i);
+  }
   report.checks.push_back(finite_check(moments, c.samples));
   if (moments.non_finite_count() == 0) report.checks.push_back(mean_check(moments, value, c.alpha));
   return report;
@@ -73,6 +81,7 @@ mc::Report law_report(mc::WorstError worst, const SampleNumber& error, const Cas
   mc::Report report = report_of(c);
   mc::Pcg random(c.seed);
   for (std::uint64_t i = 0; i < c.samples; ++i) {
+    look_for_end(c, i);
     const double off = error(random);
     worst.note(off, [&] { return fmt::format("error is {:.3g} at random point {}", off, i); });
   }

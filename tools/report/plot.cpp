@@ -1,12 +1,10 @@
 #include <process/child.h>
+#include <process/temporary_folder.h>
 #include <report/plot.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <string_view>
 #include <system_error>
 
@@ -15,29 +13,6 @@ namespace carlo {
 namespace fs = std::filesystem;
 
 namespace {
-
-// A new temporary folder, removed by the destructor.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string name = (fs::temp_directory_path(error) / "carlo.XXXXXX").string();
-    if (!error && !mkdtemp(name.data())) error = {errno, std::generic_category()};
-    mc::require(!error, "cannot make a temporary folder: {}; set TMPDIR to a writable folder", error.message());
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
 
 std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(" \n") + 1); // empty for blanks alone

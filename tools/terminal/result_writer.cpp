@@ -1,3 +1,4 @@
+#include <process/temporary_folder.h>
 #include <terminal/message.h>
 #include <terminal/result_writer.h>
 
@@ -30,8 +31,9 @@ std::optional<std::string> failure_of(const std::function<void()>& f) {
 
 // Writes into a new folder elsewhere. Returns the name of the file, or "" where no folder takes it.
 std::string save_elsewhere(const std::string& path, const std::function<void(const std::string&)>& write) {
-  const char* chosen = std::getenv("TMPDIR"); // NOLINT(concurrency-mt-unsafe): nothing sets the environment
-  for (const fs::path parent : {chosen ? chosen : "/tmp", "/tmp", "/var/tmp", "."}) {
+  std::vector<fs::path> parents = temporary_parents();
+  parents.push_back(".");
+  for (const fs::path& parent : parents) {
     std::string folder = (parent / "carlo.XXXXXX").string();
     if (!mkdtemp(folder.data())) continue;
     const std::string file = (fs::path(folder) / fs::path(path).filename()).string();
