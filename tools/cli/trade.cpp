@@ -268,6 +268,8 @@ ordered_json to_json(const TradeCommandOptions& o, const PageEntry& one) {
                     {"cost", o.scene.cost}};
   if (m.heavy_tail) j["infinite_variance"] = {{"tail_index", *m.heavy_tail}};
   if (m.interrupted) j["interrupted"] = true;
+  for (const FailedMethod& f : m.failures)
+    j["failed"].push_back({{"way", method_label(*f.method)}, {"reason", f.reason}});
   if (one.pictures) add(*one.pictures, j);
   j["errors"] = j["seconds"] = ordered_json::array();
   for (const CandidatesForError& f : a.by_error) {
@@ -385,6 +387,7 @@ int run_trade(const TradeCommandOptions& o) {
   if (m.interrupted) fmt::print("{}\n", interrupted_text(count_finished(m), chosen.size(), "methods", m));
   fmt::print("{}: {} method{}, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
              m.curves.size() == 1 ? "" : "s", m.cost.axis);
+  fmt::print("{}", failure_lines(m));
   const auto out_of_time =
       std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
   if (out_of_time > 0)

@@ -248,9 +248,14 @@ std::pair<double, double> estimate_truth(const IntegralTarget& target, const std
       target.integral.name);
   const Replicates& last = best->replicates.back();
   const auto largest = static_cast<std::uint64_t>(last.calls[0]);
-  const Replicates r =
-      target.run({best->method, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
-  const std::vector<double>& values = *o.cancel ? last.values : r.values;
+  std::vector<double> values = last.values;
+  try {
+    const Replicates r =
+        target.run({best->method, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
+    if (!*o.cancel) values = r.values;
+  } catch (const mc::Error&) {
+    // Other points than before met an error: then the truth is the mean of the replicates behind the curve.
+  }
   return {mean_of(values), error_of_mean(values)};
 }
 
@@ -353,14 +358,19 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
                           static_cast<double>(methods.size());
       if (o.progress) o.progress(done, fmt::format("{} {} N = {}", target.integral.name, methods[i].name, n));
     };
-    ConvergenceCurve curve = run_curve(target, methods[i], share, o, progress);
-    m.interrupted = curve.interrupted;
-    if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
+    try {
+      ConvergenceCurve curve = run_curve(target, methods[i], share, o, progress);
+      m.interrupted = curve.interrupted;
+      if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
+    } catch (const mc::Error& e) {
+      m.failures.push_back({&methods[i], e.what()});
+    }
     if (m.interrupted) break;
-    mc::require(known || !all_zero(m.curves),
+    mc::require(known || m.curves.empty() || !all_zero(m.curves),
                 "{}: the integrand was 0 at every point; choose bounds around the region where it is not",
                 target.integral.name);
   }
+  if (m.curves.empty() && !m.failures.empty()) throw mc::Error(m.failures.front().reason);
   m.truth = target.integral.truth;
   // After an interrupt the existing replicates may not suffice for a truth. Then no error is reported, and the
   // integrand is not blamed.

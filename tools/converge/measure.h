@@ -51,17 +51,24 @@ struct CostUnit {
 inline constexpr CostUnit cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
 inline constexpr CostUnit ray_cost{"million_rays", "millions of rays", " Mray", ""};
 
+/// A method without a curve, and the reason.
+struct FailedMethod {
+  const SamplingMethod* method;
+  std::string reason; ///< one line
+};
+
 struct Measurement {
-  std::vector<ConvergenceCurve> curves; ///< one for each method started; after an interrupt the last curve may be
-                                        ///< incomplete
-  double truth = 0;                     ///< the value that errors are measured from
-  double truth_error = 0;               ///< standard error of an estimated truth; 0: the truth is exact
-  double magnitude = 0;                 ///< mean of |f|, or |truth| if that is larger; rounding is relative to it
-  std::string truth_warning;            ///< one line with the reason why the truth is or may be wrong; empty: no doubt
-  bool interrupted = false;             ///< only the N finished before the interrupt are included
-  std::optional<double> heavy_tail;     ///< tail index, if mc::TailIndexEstimator finds an infinite variance
-  CostUnit cost = cpu_cost;             ///< the unit of `seconds`
-  std::string plain_mc = "random";      ///< name of the method that is plain Monte Carlo
+  std::vector<ConvergenceCurve> curves;    ///< one for each method started; after an interrupt the last curve may be
+                                           ///< incomplete
+  std::vector<FailedMethod> failures = {}; ///< methods that met an error, such as a point with an infinite value
+  double truth = 0;                        ///< the value that errors are measured from
+  double truth_error = 0;                  ///< standard error of an estimated truth; 0: the truth is exact
+  double magnitude = 0;                    ///< mean of |f|, or |truth| if that is larger; rounding is relative to it
+  std::string truth_warning;        ///< one line with the reason why the truth is or may be wrong; empty: no doubt
+  bool interrupted = false;         ///< only the N finished before the interrupt are included
+  std::optional<double> heavy_tail; ///< tail index, if mc::TailIndexEstimator finds an infinite variance
+  CostUnit cost = cpu_cost;         ///< the unit of `seconds`
+  std::string plain_mc = "random";  ///< name of the method that is plain Monte Carlo
 };
 
 /// Runs every method with N = 16, 32, ... max_n evaluations, starting at the method's smallest possible N.
@@ -72,8 +79,9 @@ struct Measurement {
 ///   doubt  : a stated truth is doubted if the means of the unbiased methods agree with each other but differ from it
 ///            by six standard errors. An estimated truth is doubted if one replicate causes over half of the variance
 ///            in a quarter of all sets of replicates at the larger N.
-///   throws : Error for an integrand that is not finite somewhere, for one of unknown truth that is 0 at every point,
-///            and where refuse_underflow throws.
+///   failed : a method that meets an error has no curve, but an entry in `failures`.
+///   throws : Error for an integrand that is not finite at one of the first independent points, if every method fails,
+///            for one of unknown truth that is 0 at every point, and where refuse_underflow throws.
 Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,
                                 const MeasureOptions& options);
 

@@ -1,5 +1,6 @@
 #include <converge/curve_style.h>
 #include <converge/output.h>
+#include <converge/trade.h>
 #include <report/plot.h>
 
 #include <fmt/format.h>
@@ -32,6 +33,12 @@ std::string variance_warning(const Measurement& m) {
       *m.heavy_tail);
 }
 
+std::string failure_lines(const Measurement& m) {
+  std::string text;
+  for (const FailedMethod& f : m.failures) text += fmt::format("  {} failed: {}\n", method_label(*f.method), f.reason);
+  return text;
+}
+
 std::string summary(const IntegralTarget& target, const Measurement& m) {
   const UnitCubeIntegral& e = target.integral;
   std::string text = e.title == e.name ? e.name + "\n" : fmt::format("{}: {}\n", e.name, e.title);
@@ -41,6 +48,7 @@ std::string summary(const IntegralTarget& target, const Measurement& m) {
     text += fmt::format("  {:<{}} RMS error {}{:.3g} at N = {:.0f}, {}{}\n", c.method->name, width,
                         c.errors.back().is_bound ? "at most " : "", c.errors.back().rms, c.errors.back().n,
                         slope_text(c), c.interrupted ? "; interrupted" : "");
+  text += failure_lines(m);
   if (m.truth_error > 0)
     text += fmt::format("  true value unknown; errors are relative to {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
                         m.interrupted ? "" : ", estimated from separate replicates");
@@ -152,6 +160,8 @@ ordered_json to_json(const IntegralTarget& target, const Measurement& m, const o
   if (!m.truth_warning.empty()) j["warning"] = m.truth_warning;
   if (m.heavy_tail) j["infinite_variance"] = {{"tail_index", *m.heavy_tail}};
   if (m.interrupted) j["interrupted"] = true;
+  for (const FailedMethod& f : m.failures)
+    j["failed"].push_back({{"way", method_label(*f.method)}, {"reason", f.reason}});
   j["curves"] = ordered_json::array();
   for (const ConvergenceCurve& c : m.curves) j["curves"].push_back(to_json(c, m.cost));
   return j;

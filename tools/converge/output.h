@@ -16,7 +16,10 @@ std::string slope_text(const ConvergenceCurve& curve);
 /// One line of warning if the variance appears infinite; otherwise empty.
 std::string variance_warning(const Measurement& m);
 
-/// The title, a line for each curve, and the warnings about the truth and the variance.
+/// A line for each failed method; empty if there is none.
+std::string failure_lines(const Measurement& m);
+
+/// The title, a line for each curve and each failed method, and the warnings about the truth and the variance.
 std::string summary(const IntegralTarget& target, const Measurement& m);
 
 /// Number of curves that reached their largest N.

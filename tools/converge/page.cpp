@@ -253,6 +253,9 @@ std::string html_of(const Section& section) {
       fmt::format("<section><h2>{}</h2><p class=\"facts\">{}</p>", escape_html(one.target->integral.title), facts(one));
   for (const std::string& warning : {m.truth_warning, variance_warning(m)})
     if (!warning.empty()) s += fmt::format("<p class=\"doubt\">{}</p>", escape_html(warning));
+  for (const FailedMethod& f : m.failures)
+    s += fmt::format("<p class=\"doubt\">{} failed: {}</p>", escape_html(method_label(*f.method)),
+                     escape_html(f.reason));
   if (one.trade_results)
     s += "<p class=\"answer\">" + escape_html(answer_text(m, *one.trade_results)) + "</p>" + answer_tables(section);
   s += "<div class=\"panels\">" +

@@ -1,5 +1,6 @@
 #include <converge/trade.h>
 
+#include <mc/core/error.h>
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
 #include <mc/stats/chi_square.h>
@@ -181,7 +182,11 @@ EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement&
   for (std::uint64_t round = 0; round < rounds; ++round)
     for (const TradeCandidate& o : contenders(candidates, m.plain_mc)) {
       if (cancel && *cancel) return measured_cost;
-      seconds[o.curve].push_back(remeasured_seconds(target, o, seed, round, cancel));
+      try {
+        seconds[o.curve].push_back(remeasured_seconds(target, o, seed, round, cancel));
+      } catch (const mc::Error&) {
+        return measured_cost; // other points than before met an error
+      }
     }
   if (cancel && *cancel) return measured_cost; // the last run is invalid
   // The second and the eighth of nine values enclose the median with 96 % confidence.
@@ -196,9 +201,11 @@ EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement&
   };
 }
 
-std::string curve_label(const ConvergenceCurve& c) {
-  return c.method->name + (c.method->scalar_calls ? " (one by one)" : "");
+std::string method_label(const SamplingMethod& method) {
+  return method.name + (method.scalar_calls ? " (one by one)" : "");
 }
+
+std::string curve_label(const ConvergenceCurve& c) { return method_label(*c.method); }
 
 std::optional<IntervalEstimate> evaluations_to_reach(const ConvergenceCurve& c, double error) {
   const auto lo = crossing(c.errors, &mc::RmsError::lo, error);

@@ -91,7 +91,8 @@ std::size_t count_ties(const std::vector<TradeCandidate>& candidates, IntervalEs
 /// The Pareto-optimal points, cheapest first: no other point is both cheaper and more accurate.
 std::vector<TradeCandidate> pareto_front(const Measurement& m);
 
-/// The method name of a curve, with a suffix if the integrand was called with one point at a time.
+/// The name of a method, with a suffix if the integrand was called with one point at a time.
+std::string method_label(const SamplingMethod& method);
 std::string curve_label(const ConvergenceCurve& curve);
 
 } // namespace carlo

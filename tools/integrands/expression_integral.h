@@ -136,8 +136,7 @@ class ExpressionIntegral {
         return;
       }
       if (step.is_box_side) { // as map_to_bounds; the factor is part of constant_measure_
-        const double v = u[step.coordinate];
-        frame[step.value] = step.first.value * (1 - v) + step.second.value * v;
+        frame[step.value] = between(step.first.value, step.second.value, u[step.coordinate]);
         continue;
       }
       const double factor = take(step, u, frame);

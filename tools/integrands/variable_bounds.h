@@ -45,7 +45,16 @@ std::vector<VariableBounds> parse_bounds(const std::string& box);
 double parse_bound(const std::string& text, std::string_view whole, const std::vector<std::string>& names = {},
                    const std::vector<double>& values = {});
 
-/// The image of u in [0,1] within the bounds: x, which increases with u, and dx/du.
+/// lo (1 - u) + hi u for finite bounds. Rounding carries no u of (0,1) to a bound.
+inline double between(double lo, double hi, double u) {
+  const double x = lo * (1 - u) + hi * u;
+  if (x <= lo && u > 0) return std::nextafter(lo, hi);
+  if (x >= hi && u < 1) return std::nextafter(hi, lo);
+  return x;
+}
+
+/// The image of u in [0,1] within the bounds: x, which increases with u, and dx/du. The image of (0,1) is strictly
+/// inside.
 ///   finite   : x = lo (1 - u) + hi u.
 ///   lo:inf   : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi is mirrored.
 ///   -inf:inf : x = t / (1 - t^2), t = 2 u - 1.
@@ -53,9 +62,15 @@ struct MappedPoint {
   double x, slope;
 };
 inline MappedPoint map_to_bounds(double lo, double hi, double u) {
-  if (std::isfinite(lo) && std::isfinite(hi)) return {lo * (1 - u) + hi * u, hi - lo};
-  if (std::isfinite(lo)) return {lo + u / (1 - u), 1 / ((1 - u) * (1 - u))};
-  if (std::isfinite(hi)) return {hi - (1 - u) / u, 1 / (u * u)};
+  if (std::isfinite(lo) && std::isfinite(hi)) return {between(lo, hi, u), hi - lo};
+  if (std::isfinite(lo)) {
+    const double x = lo + u / (1 - u);
+    return {x <= lo && u > 0 ? std::nextafter(lo, hi) : x, 1 / ((1 - u) * (1 - u))};
+  }
+  if (std::isfinite(hi)) {
+    const double x = hi - (1 - u) / u;
+    return {x >= hi && u < 1 ? std::nextafter(hi, lo) : x, 1 / (u * u)};
+  }
   const double t = 2 * u - 1, rest = 4 * u * (1 - u); // 1 - t^2
   return {t / rest, 2 * (1 + t * t) / (rest * rest)};
 }

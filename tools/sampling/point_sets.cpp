@@ -22,6 +22,14 @@ namespace {
 // Fills `points` with points first, first + 1, ... of the sampler.
 template <mc::Real S, mc::Sampler T>
 void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> points) {
+  if constexpr (std::same_as<T, mc::Stratified>) {
+    std::vector<S> u(dim);
+    for (std::size_t i = 0; i < points.size() / dim; ++i) {
+      sampler.point(first + i, std::span(u));
+      std::copy(u.begin(), u.end(), points.begin() + static_cast<std::ptrdiff_t>(i * dim));
+    }
+    return;
+  }
   for (std::size_t i = 0; i < points.size() / dim; ++i)
     for (std::size_t k = 0; k < dim; ++k)
       points[i * dim + k] = static_cast<double>(mc::coordinate<S>(sampler, first + i, static_cast<std::uint32_t>(k)));

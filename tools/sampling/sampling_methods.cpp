@@ -45,7 +45,7 @@ double mean_of_shifted(const CsvTable& points, const UnitCubeIntegral& e, std::u
   return mean_over(e, n, [&](std::uint64_t first, std::span<double> u) {
     for (std::size_t i = 0; i < u.size(); ++i) {
       const double moved = points.row(first + i / dim)[i % dim] + mc::uniform<double>(mc::hash(seed, i % dim));
-      u[i] = std::min(moved - std::floor(moved), 1 - 0x1p-53);
+      u[i] = std::clamp(moved - std::floor(moved), 0x1p-54, 1 - 0x1p-53);
     }
   });
 }

@@ -4,6 +4,8 @@
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
 
+#include <algorithm>
+#include <concepts>
 #include <cstdint>
 
 namespace mc {
@@ -13,6 +15,11 @@ namespace mc {
 template <Real S> S uniform(std::uint64_t bits) {
   if constexpr (std::same_as<S, float>) return static_cast<float>(bits >> 40) * 0x1p-24f;
   else return S(static_cast<double>(bits >> 11) * 0x1p-53);
+}
+
+/// The same number, but half a step, 2^-(p+1), instead of 0: it lies in (0,1).
+template <Real S> S open_uniform(std::uint64_t bits) {
+  return std::max(uniform<S>(bits), S(std::same_as<S, float> ? 0x1p-25 : 0x1p-54));
 }
 
 /// Uniform number in [0,1) as a pure function of a key, such as hash_uniform<float>(seed, pixel, sample, dim).

@@ -1,5 +1,5 @@
 #pragma once
-/// Samplers: point sets in [0,1)^d as pure functions of (index, dim).
+/// Samplers: point sets in (0,1)^d as pure functions of (index, dim).
 
 #include <mc/random/uniform.h>
 
@@ -26,9 +26,9 @@ constexpr std::uint64_t jittered(std::uint64_t i, std::uint64_t n, std::uint64_t
   return static_cast<std::uint64_t>(((Wide{i} << 64) + jitter) / n);
 }
 
-/// Coordinate `dim` of point `index`, in [0,1).
+/// Coordinate `dim` of point `index`, strictly inside of (0,1).
 template <Real S, Sampler T> S coordinate(const T& sampler, std::uint64_t index, std::uint32_t dim) {
-  return uniform<S>(sampler.bits(index, dim));
+  return open_uniform<S>(sampler.bits(index, dim));
 }
 
 /// Coordinates dim, dim + 1, ... of point `index`; a plain scalar if N = 1.
@@ -48,7 +48,7 @@ template <Real S, Sampler T> class SampleStream {
   SampleStream(T sampler, std::uint64_t index, std::uint32_t dim = 0)
       : sampler_(std::move(sampler)), index_(index), dim_(dim) {}
 
-  /// The next coordinate, in [0,1).
+  /// The next coordinate, in (0,1).
   S next() { return coordinate<S>(sampler_, index_, dim_++); }
   /// The next N coordinates.
   template <int N> Point<S, N> next() {

@@ -38,7 +38,7 @@ struct PaddedSobol {
       // One reversal for both coordinates: it exchanges the halves.
       const std::uint64_t y = owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(second));
       const std::uint64_t x = reverse_bits64(y << 32 | reversed_first(i, key));
-      return {uniform<S>(x & 0xffffffff00000000u), uniform<S>(x << 32)};
+      return {open_uniform<S>(x & 0xffffffff00000000u), open_uniform<S>(x << 32)};
     }
   };
   /// The key of pair `number`.

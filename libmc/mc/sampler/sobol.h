@@ -42,7 +42,7 @@ class Sobol {
   /// at a time.
   template <Real S> void fill(std::uint64_t first, std::uint32_t dim, std::span<S> out) const {
     if (dim >= dimensions) {
-      for (std::size_t i = 0; i < out.size(); ++i) out[i] = uniform<S>(bits(first + i, dim));
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = open_uniform<S>(bits(first + i, dim));
       return;
     }
     // Point i + k of an aligned block that starts at i is the exclusive or of points i and k.
@@ -57,8 +57,8 @@ class Sobol {
       const std::uint32_t base = reversed(static_cast<std::uint32_t>(index - skip), dim);
       for (std::size_t i = 0; i < n; ++i) {
         const std::uint32_t x = reverse_bits(owen_scramble_reversed(base ^ offsets[skip + i], scramble));
-        if constexpr (std::same_as<S, float>) out[done + i] = static_cast<float>(x >> 8) * 0x1p-24f;
-        else out[done + i] = uniform<S>((std::uint64_t{x} << 32) | (mix64(key ^ (index + i)) & 0xffffffffu));
+        if constexpr (std::same_as<S, float>) out[done + i] = std::max(static_cast<float>(x >> 8) * 0x1p-24f, 0x1p-25f);
+        else out[done + i] = open_uniform<S>((std::uint64_t{x} << 32) | (mix64(key ^ (index + i)) & 0xffffffffu));
       }
       done += n;
     }

@@ -37,13 +37,13 @@ class Stratified {
     return result;
   }
 
-  /// The first u.size() coordinates of a point, equal to coordinate<double>(). Finds the box of each group only once.
-  void point(std::uint64_t index, std::span<double> u) const {
+  /// The first u.size() coordinates of a point, equal to coordinate<S>(). Finds the box of each group only once.
+  template <Real S> void point(std::uint64_t index, std::span<S> u) const {
     const auto dims = static_cast<std::uint32_t>(u.size());
     for (std::uint32_t first = 0; first < dims; first += group_)
       descend(index, first / group_, std::min(group_, dims - first) - 1,
               [&](std::uint32_t axis, const Stratum& s, std::uint32_t n) {
-                u[first + axis] = uniform<double>(inside(s, n, hash(seed_, index, first + axis)));
+                u[first + axis] = open_uniform<S>(inside(s, n, hash(seed_, index, first + axis)));
               });
   }
 

@@ -20,6 +20,16 @@ TEST(Uniform, IsTheLeadingBits) {
   }
 }
 
+TEST(Uniform, OpenOneIsInside) {
+  EXPECT_EQ(mc::open_uniform<float>(0), 0x1p-25f);
+  EXPECT_EQ(mc::open_uniform<double>(0), 0x1p-54);
+  EXPECT_EQ(mc::open_uniform<float>((1ULL << 40) - 1), 0x1p-25f);
+  EXPECT_EQ(mc::open_uniform<double>(1ULL << 11), 0x1p-53);
+  EXPECT_EQ(mc::open_uniform<float>(~0ULL), mc::one_minus_epsilon<float>);
+  for (std::uint64_t k = 1; k < 1000; ++k)
+    EXPECT_EQ(mc::open_uniform<float>(mc::mix64(k)), mc::uniform<float>(mc::mix64(k)));
+}
+
 TEST(Uniform, HashedIsAFunctionOfItsKey) {
   EXPECT_EQ(mc::hash_uniform<double>(1, 2, 3), mc::hash_uniform<double>(1, 2, 3));
   EXPECT_NE(mc::hash_uniform<double>(1, 2, 3), mc::hash_uniform<double>(1, 3, 2));

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <set>
+#include <span>
 
 namespace {
 
@@ -57,7 +58,7 @@ TEST(Stratified, AWholePointIsThatOfItsCoordinates) {
       const mc::Stratified s(count, 3, group);
       std::array<double, 19> u;
       for (const std::uint64_t index : {std::uint64_t{0}, std::uint64_t{count - 1}, std::uint64_t{count} + 5}) {
-        s.point(index, u);
+        s.point(index, std::span<double>(u));
         for (std::uint32_t d = 0; d < u.size(); ++d)
           ASSERT_EQ(u[d], mc::coordinate<double>(s, index, d)) << count << ", " << group << ", " << d;
       }

@@ -301,4 +301,11 @@ TEST(Integrate, CtrlC_PrintsResultSoFar) {
   }
 }
 
+TEST(Integrate, ZeroIntegral_AsksForAbsError) {
+  const auto r = support::run_carlo("integrate 'x^3+x' -d x=-1:1 --max-calls 20000 --seed 3");
+  EXPECT_EQ(r.exit_code, 1) << r.output;
+  EXPECT_THAT(r.output, testing::HasSubstr("it is relative to an integral that may be 0; give --abs-error"));
+  EXPECT_EQ(support::run_carlo("integrate 'x^3+x' -d x=-1:1 --max-calls 20000 --abs-error 0.01").exit_code, 0);
+}
+
 } // namespace

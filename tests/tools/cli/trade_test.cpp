@@ -93,6 +93,17 @@ TEST_F(TradeCommand, RemovesPlotsOfEarlierRuns) {
   EXPECT_TRUE(std::filesystem::exists(path("out/trade.csv")));
 }
 
+// 2e-6 of the points are infinite: many methods meet none of them, and lose nothing.
+TEST_F(TradeCommand, FailedMethodLosesItsRow) {
+  const ProcessResult r = run("'if(abs(x-0.375)<1e-6,1/(x-x),x)' -d x=0:1 --error 0.01 --max-n 4096");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, testing::ContainsRegex("\n  [a-z_]+ failed: if.abs.x-0.375.<1e-6,1/.x-x.,x.: the integrand is "
+                                               "(inf|-inf|nan) at x = 0.37[45999]+"));
+  EXPECT_THAT(r.output, HasSubstr("\n  error 0.01: "));
+  EXPECT_THAT(mc::read_file(path("out/trade.json")), AllOf(HasSubstr("\"failed\""), HasSubstr("\"reason\"")));
+  EXPECT_THAT(run("'log(x)/sqrt(x)' -d x=0:1 --error 0.1 --max-n 1024").output, Not(HasSubstr("failed")));
+}
+
 TEST_F(TradeCommand, ComparesBatchesWithSingleCalls) {
   const ProcessResult r = run(std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' Batch --error 0.1 --max-n 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;

@@ -100,6 +100,24 @@ TEST(VariableBounds, AcceptConstantExpressions) {
     EXPECT_THAT(message("x=0:" + bad), testing::StartsWith("--domain: '")) << bad;
 }
 
+// No point of the open cube is mapped to a bound, where an integrand may be infinite.
+TEST(VariableBounds, OpenCubeIsMappedStrictlyInside) {
+  constexpr double first = 0x1p-54, last = 1 - 0x1p-53;
+  for (const auto& [lo, hi] :
+       {std::pair(0.0, 1.0), {1.0, 2.0}, {-1.0, 0.0}, {-3.0, -1.0}, {1e6, 1e6 + 1}, {0.1, 1e300}})
+    for (const double u : {first, 0x1p-25, 0.5, 1 - 0x1p-24, last}) {
+      const double x = carlo::map_to_bounds(lo, hi, u).x;
+      EXPECT_TRUE(lo < x && x < hi) << lo << " " << hi << " " << u;
+    }
+  for (const double u : {first, 0.5, last}) {
+    EXPECT_GT(carlo::map_to_bounds(7, HUGE_VAL, u).x, 7);
+    EXPECT_LT(carlo::map_to_bounds(-HUGE_VAL, 7, u).x, 7);
+    EXPECT_TRUE(std::isfinite(carlo::map_to_bounds(-HUGE_VAL, HUGE_VAL, u).x));
+  }
+  EXPECT_EQ(carlo::map_to_bounds(1, 2, 0).x, 1);
+  EXPECT_EQ(carlo::map_to_bounds(1, 2, 1).x, 2);
+}
+
 TEST(VariableBounds, RejectInvalidVariableNames) {
   for (const std::string name : {"3x", "x y", "\u00e9", "x-1", "x\ty"})
     EXPECT_EQ(message("a=0:1," + name + "=0:1"),

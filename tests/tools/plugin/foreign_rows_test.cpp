@@ -109,7 +109,7 @@ TEST_F(ForeignRowsTest, FailureIsOneLine) {
   EXPECT_THAT(refusal(program("sys.exit(4)")), HasSubstr("the program ended with code 4 instead of answering 'eval'"));
   EXPECT_THAT(refusal("kill -SEGV $$"), HasSubstr("the program ended with code 139 instead of"));
   EXPECT_THAT(
-      refusal(program("out.pop()"), 1),
+      refusal(program("out.pop()"), 8),
       HasSubstr("it hangs in eval at x = (0.25), where 1 of 2 numbers have come (doubles of 8 bytes): no answer"));
   EXPECT_THAT(refusal(program("out.append(1)")),
               HasSubstr("it wrote 8 bytes more than the answer; it must write nothing else"));
