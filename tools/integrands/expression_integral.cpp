@@ -120,8 +120,8 @@ ExpressionIntegral::ExpressionIntegral(const ExpressionContext& context, const s
   Builder builder{*this, {}, {}, {}, {}};
   const std::vector<VariableText> domain = split_domain(context.domain);
   mc::require(domain.size() <= 1024, "--domain: {} variables; at most 1024 are possible", domain.size());
-  std::vector<std::string> taken;
-  for (const VariableText& v : domain) taken.push_back(v.name);
+  std::vector<std::string> taken(domain.size());
+  std::transform(domain.begin(), domain.end(), taken.begin(), [](const VariableText& v) { return v.name; });
   const auto define = [&](std::string_view option, const std::string& text) {
     auto definition = split_definition(option, text);
     mc::require(std::find(taken.begin(), taken.end(), definition.first) == taken.end(),
@@ -214,13 +214,13 @@ double ExpressionIntegral::take(const Step& step, std::span<const double> u, con
   return at.slope;
 }
 
-std::pair<double, double> ExpressionIntegral::summed_range(const Step& step, const Frame& frame) const {
+std::pair<double, int> ExpressionIntegral::summed_range(const Step& step, const Frame& frame) const {
   const double lo = std::ceil(step.first.in(frame)), hi = std::floor(step.second.in(frame));
   const double terms = hi - lo + 1;
   if (!(terms <= summed_terms))
     refuse(step, frame, fmt::format("has bounds {:.9g} and {:.9g}", lo, hi),
            fmt::format("at most {} terms are summed at a point; a sum to inf is sampled", summed_terms));
-  return {lo, hi};
+  return {lo, static_cast<int>(std::max(terms, 0.0))};
 }
 
 double ExpressionIntegral::replaced() const {

@@ -128,9 +128,9 @@ class ExpressionIntegral {
     for (std::size_t i = from; i < steps_.size(); ++i) {
       const Step& step = steps_[i];
       if (step.kind == StepKind::summed_integers) {
-        const auto [lo, hi] = summed_range(step, frame);
-        for (double k = lo; k <= hi; ++k) {
-          frame[step.value] = k;
+        const auto [lo, terms] = summed_range(step, frame);
+        for (int k = 0; k < terms; ++k) {
+          frame[step.value] = lo + k;
           walk(i + 1, u, weight, frame, f);
         }
         return;
@@ -147,7 +147,8 @@ class ExpressionIntegral {
   }
   /// Sets the value of a step. Returns the factor of the weight; 0 where the term has no part in the integral.
   double take(const Step& step, std::span<const double> u, const ExpressionProgram::Frame& frame) const;
-  std::pair<double, double> summed_range(const Step& step, const ExpressionProgram::Frame& frame) const;
+  /// The first number of a sum, and how many there are.
+  std::pair<double, int> summed_range(const Step& step, const ExpressionProgram::Frame& frame) const;
   /// "--domain: 'y=0:x' <complaint> at x = 2; <remedy>".
   [[noreturn]] void refuse(const Step& step, const ExpressionProgram::Frame& frame, std::string_view complaint,
                            std::string_view remedy) const;

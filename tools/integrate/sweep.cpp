@@ -28,8 +28,8 @@ std::vector<double> values_of(const std::string& text, const std::string& range)
   const double steps = std::floor((hi - lo) / step + 1e-9); // HI belongs to the range although STEP is rounded
   mc::require(step != 0 && steps >= 0, "--set '{}': the step {} does not lead from {} to {}", text, step, lo, hi);
   mc::require(steps < most_points, "--set '{}': {:.0f} values; at most {} are possible", text, steps + 1, most_points);
-  std::vector<double> values;
-  for (double k = 0; k <= steps; ++k) values.push_back(lo + k * step);
+  std::vector<double> values(static_cast<std::size_t>(steps) + 1);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = lo + static_cast<double>(k) * step;
   return values;
 }
 

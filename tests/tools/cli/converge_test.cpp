@@ -47,6 +47,26 @@ TEST_F(Converge, Expression_NeedsNoTruth) {
   EXPECT_THAT(page, AllOf(HasSubstr("<polyline"), HasSubstr("reference 1.3075"), Not(HasSubstr("http"))));
 }
 
+// A disk by a condition, a simplex by its bounds, and a normal variable: the estimated truths are near the known values.
+TEST_F(Converge, Domains_MayBeRegions) {
+  const std::pair<const char*, double> cases[] = {
+      {"1 -d x=-1:1,y=-1:1 --where 'r<a' --let 'r=hypot(x,y)' --set a=1", 3.14159265},
+      {"x*y -d x=0:1,y=0:x", 0.125},
+      {"'z^2*k' -d z=normal,k=1..3", 6}};
+  for (const auto& [arguments, truth] : cases) {
+    const ProcessResult r = run(std::string(arguments) + " --max-n 1024");
+    EXPECT_EQ(r.exit_code, 0) << r.output;
+    const std::size_t at = r.output.find("relative to ");
+    ASSERT_NE(at, std::string::npos) << r.output;
+    EXPECT_NEAR(std::stod(r.output.substr(at + 12)) / truth, 1, 0.01) << r.output;
+  }
+  expect_refused("2 -d x=0:1", "'2' uses none of x");
+  expect_refused("'a*x' -d x=0:1 --set a=1:2:1", "carlo integrate takes ranges");
+  expect_refused("x y=0:1 -d x=0:1", "'y=0:1' is a bound");
+  expect_refused("'exp(i*x)' -d x=0:1", "is complex");
+  expect_refused("pi --let r=2", "'pi' has a domain of its own");
+}
+
 TEST_F(Converge, Scene_IsComparedWithAReference) {
   const ProcessResult r =
       run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16 --report '" +
