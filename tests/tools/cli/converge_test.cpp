@@ -47,7 +47,7 @@ TEST_F(Converge, Expression_NeedsNoTruth) {
   EXPECT_THAT(page, AllOf(HasSubstr("<polyline"), HasSubstr("reference 1.3075"), Not(HasSubstr("http"))));
 }
 
-// A disk by a condition, a simplex by its bounds, and a normal variable: the estimated truths are near the known values.
+// A disk by a condition, a simplex by its bounds, a normal variable: the estimated truths are near the known values.
 TEST_F(Converge, Domains_MayBeRegions) {
   const std::pair<const char*, double> cases[] = {
       {"1 -d x=-1:1,y=-1:1 --where 'r<a' --let 'r=hypot(x,y)' --set a=1", 3.14159265},
