@@ -212,18 +212,20 @@ void check_outputs(const RenderCommandOptions& options, const std::string& outpu
 std::string write_results(const RenderCommandOptions& options, const std::string& output,
                           const render::RenderResult& result, bool is_resumed, const render::ToneMapping& tone) {
   const auto spp_of = [&](const std::string& file) { return spp_of_partial(file, result.image.metadata); };
-  const bool is_beside = result.partial && !is_resumed && std::filesystem::is_regular_file(output) &&
-                         !(spp_of(output).value_or(HUGE_VAL) <= result.spp);
-  const bool is_lesser = is_beside && spp_of(partial_path(output)).value_or(0) > result.spp;
+  const bool is_partial = result.partial && !is_resumed &&
+                          !(spp_of(output).value_or(HUGE_VAL) <= result.spp); // else it goes on or is better
+  const bool is_lesser =
+      is_partial && std::filesystem::is_regular_file(output) && spp_of(partial_path(output)).value_or(0) > result.spp;
   ResultWriter results;
   std::string written = partial_path(output);
   if (is_lesser) print_message(fmt::format("'{}' has more samples; nothing was written", written));
   else
-    written = results.write(output, is_beside,
+    written = results.write(output, is_partial,
                             [&](const std::string& file) { render::write_image(file, result.image, tone); });
   if (!is_lesser && !options.intervals.empty() && !result.image.variance.empty()) {
     const render::Image intervals = render::interval_half_widths(result.image, 0.95);
-    results.write(options.intervals, is_beside, [&](const std::string& file) { render::write_image(file, intervals); });
+    results.write(options.intervals, is_partial,
+                  [&](const std::string& file) { render::write_image(file, intervals); });
   }
   results.finish();
   return written;

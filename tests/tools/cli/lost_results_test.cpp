@@ -45,6 +45,10 @@ TEST_F(LostResults, InterruptedRender_KeepsABetterPicture) {
   EXPECT_EQ(mc::read_file(a), complete);
   EXPECT_TRUE(render::read_image(beside).metadata.contains("carlo.partial"));
   EXPECT_TRUE(fs::exists(path("i.pfm"))) << "nothing was there";
+  write("i.pfm", "complete");
+  support::interrupt_carlo(endless + path("new.exr") + " --intervals " + path("i.pfm"), "  error ");
+  EXPECT_TRUE(fs::exists(path("new.exr")) && fs::exists(path("i.partial.pfm")));
+  EXPECT_EQ(mc::read_file(path("i.pfm")), "complete");
 
   render::Image better = render::read_image(beside);
   better.metadata["carlo.samples_per_pixel"] = "1e9";

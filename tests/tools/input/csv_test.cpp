@@ -42,7 +42,8 @@ TEST_F(Csv, NumericFirstRow_IsKept) {
   EXPECT_THAT(refusal("\"0.5 m\",1\n1,2\n"), HasSubstr("a.csv:1: '0.5 m' is not a number"));
   EXPECT_THAT(refusal("\xe2\x88\x92"
                       "0.5,1\n1,2\n"),
-              HasSubstr("a.csv:1: '???0.5' is not a number"))
+              HasSubstr("a.csv:1: '\xe2\x88\x92"
+                        "0.5' is not a number"))
       << "U+2212";
 }
 

@@ -265,7 +265,7 @@ TEST_F(SamplesFile, BinaryGarbage_IsRejectedInPlainText) {
   const std::string refused = refusal(options(write("b.csv", std::string("0.5\n\x7f\x45\x4c\x46\x00\x01", 10)), pdf));
   EXPECT_THAT(refused, HasSubstr("b.csv: it is not text: byte 8 is 0x00; rows of numbers are needed"));
   const std::string word = refusal(options(write("b.csv", "0.5\n\xc3\xa9\xff\n"), pdf));
-  EXPECT_THAT(word, HasSubstr("b.csv:2: '\?\?\?' is not a number"));
+  EXPECT_THAT(word, HasSubstr("b.csv:2: '\xc3\xa9?' is not a number"));
 }
 
 TEST_F(SamplesFile, Result_IsIndependentOfPath) {
