@@ -116,6 +116,7 @@ UserInput read_user_input(const ValidateCommandOptions& o, const std::atomic<boo
               "validate: --domain is for a --command or a --samples-file");
   mc::require(!o.unnormalized || !o.pdf.empty() || !o.pdf_file.empty(),
               "validate: --unnormalized is for a density of a --samples-file, from --pdf or --pdf-file");
+  mc::require(!o.dependent || !o.samples_file.empty(), "validate: --dependent is for the rows of a --samples-file");
   mc::require(o.uniforms >= 0 && (o.uniforms == 0 || !o.sampler_command.empty()),
               "validate: --uniforms {} is for a --command, and >= 1", o.uniforms);
   mc::require(o.parameters.empty() || !o.plugin.empty(), "validate: --params sets parameters of a --plugin");
@@ -126,14 +127,18 @@ UserInput read_user_input(const ValidateCommandOptions& o, const std::atomic<boo
               "validate: --breaks is for a --pdf or a --command");
   UserInput user_input;
   const bool is_foreign = !o.plugin.empty() || !o.sampler_command.empty();
+  std::optional<double> timeout = o.timeout;
+  // A wanted error decides the number of samples, so it also decides the time that they may take.
+  if (o.detect && !timeout && is_foreign && *o.detect > 0)
+    timeout = 60 + 1e-5 * static_cast<double>(mc::samples_to_detect(*o.detect, o.alpha));
   const WorkerOptions worker{
-      .limits = resource_limits(o.timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
+      .limits = resource_limits(timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
   if (!o.plugin.empty()) user_input.cases = plugin_cases(o.plugin, o.parameters, o.names, worker);
   if (!o.sampler_command.empty())
     user_input.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));
   if (!o.samples_file.empty()) {
     const SamplesFileCase file =
-        samples_file_case({o.samples_file, o.pdf_file, o.pdf, o.domain, o.breaks, o.unnormalized});
+        samples_file_case({o.samples_file, o.pdf_file, o.pdf, o.domain, o.breaks, o.unnormalized, o.dependent});
     user_input.cases.push_back(file.one);
     user_input.samples = file.samples;
   }
@@ -142,12 +147,21 @@ UserInput read_user_input(const ValidateCommandOptions& o, const std::atomic<boo
 
 constexpr std::uint64_t most_samples = 1'000'000'000'000'000; // counts in doubles stay exact
 
+// The time of so many samples at a million a second, "12 s" or "2.8 h".
+std::string duration_text(double samples) {
+  const double seconds = samples / 1e6;
+  if (seconds < 120) return fmt::format("{:.0f} s", seconds);
+  return seconds < 7200 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+}
+
 // Determines the number of samples. Throws Error before any work where it is impossible.
 void resolve_sample_count(ValidateCommandOptions& o, double alpha, std::uint64_t available) {
   if (o.detect) {
     mc::require(*o.detect >= 1e-4 && *o.detect <= 1, "validate: --detect {} must lie in [0.0001, 1]", *o.detect);
     o.samples = mc::samples_to_detect(*o.detect, alpha);
-    fmt::print("{} samples per case to detect {:g} %\n", o.samples, 100 * *o.detect);
+    fmt::print("{} samples per case to detect {:g} %: about {} a case at a million samples a second\n", o.samples,
+               100 * *o.detect, duration_text(static_cast<double>(o.samples)));
+    std::fflush(stdout);
   }
   mc::require(available == 0 || o.samples <= available,
               "{}: {} samples can be counted, the others choose the bins; --detect {} needs {}", o.samples_file,
@@ -231,18 +245,21 @@ CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateComm
 // The reports of cases that did not pass, then the number of cases that passed.
 void print_summary(const ValidationRun& run, std::size_t asked, bool verbose) {
   constexpr std::string_view hint = "; --verbose shows them";
-  std::size_t passed = 0, inconclusive = 0;
+  std::size_t passed = 0, inconclusive = 0, warned = 0;
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     const mc::Report& r = run.reports[i];
     passed += r.passed();
     inconclusive += r.verdict() == mc::Verdict::inconclusive;
+    warned += r.passed() && r.warning();
+    if (r.passed() && r.warning()) fmt::print("\n{}\n", r.to_string());
     if (!r.passed())
       fmt::print("\n{}\n  again: {}\n", r.to_string(verbose ? mc::ReportText::full : mc::ReportText::brief, hint),
                  repeat_command(*run.cases[i], run.settings, asked));
   }
-  fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
-             run.cases.size(), inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(),
-             run.settings.alpha, run.settings.samples, run.settings.seed);
+  fmt::print("\n{} of {} cases passed{}{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
+             run.cases.size(), warned > 0 ? fmt::format(", {} with a warning", warned) : std::string(),
+             inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), run.settings.alpha,
+             run.settings.samples, run.settings.seed);
   if (!run.unchecked.empty()) fmt::print("{} of {} cases could not be checked\n", run.unchecked.size(), asked);
   if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
 }

@@ -27,6 +27,7 @@ struct ValidateCommandOptions {
   std::string domain;                  ///< of the samples; empty: inferred from their columns
   std::string breaks;                  ///< places where the density jumps, see parse_breaks
   bool open_interval = false;          ///< u lies in (0,1): failures at single u are accepted
+  bool dependent = false;              ///< the samples of a file need not be independent
   bool unnormalized = false;           ///< the given density is only proportional to the true one
   std::string report;                  ///< folder for index.html; empty: none
   std::string command;

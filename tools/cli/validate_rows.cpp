@@ -43,7 +43,9 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
             "Check the distribution of this program, which answers over pipes: \"python3 mine.py\". Needs --domain."},
            {"--uniforms", "N", &o.uniforms,
             "Random numbers that one sample of --command takes; 0 is the dimensions of --domain."},
-           {"--timeout", "SECONDS", &o.timeout, "Wall-clock time for a case of a plugin or program. Default: 60."},
+           {"--timeout", "SECONDS", &o.timeout,
+            "Wall-clock time for a case of a plugin or program. Default: 60, and 10 more per million samples of "
+            "--detect."},
            {"--memory", "GIB", &o.memory, "Memory for a plugin or program, in GiB. Default: 4."},
        }},
       {"Your own samples",
@@ -63,6 +65,10 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
             "\"r=0.5\", \"theta=0:90:15\" in degrees. A density that is constant between them is integrated "
             "exactly."},
            {"--unnormalized", "", &o.unnormalized, "The density is known up to a factor only."},
+           {"--dependent", "", &o.dependent,
+            "Accept rows that depend on each other, such as a point set. Default: the order of the rows and the "
+            "evenness "
+            "of the counts are tested, too."},
        }},
       {expert_options,
        {

@@ -1,3 +1,4 @@
+#include <input/check_rows.h>
 #include <input/csv.h>
 #include <input/parsed_domain.h>
 #include <input/row_shuffler.h>
@@ -118,20 +119,27 @@ std::span<const double> numbers(const ParsedDomain& domain, const mc::PointArray
   return std::span(x).first(domain.columns.size());
 }
 
-// The integral of an unnormalised density and its relative error.
+// The integral of an unnormalised density and its relative error. The tolerance of the cubature is absolute, so the
+// density is divided by its integral until the quotient is of order 1.
 std::pair<double, double> total(const ParsedDomain& domain, const Density& density) {
+  double scale = 1;
   const auto f = [&](const mc::AnyDomain::Coordinates& v) {
     const mc::AnyDomain::DomainPoint at = domain.chart.from_unit(v);
-    const double value = density(numbers(domain, at.x)) * at.jacobian;
+    const double value = density(numbers(domain, at.x)) / scale * at.jacobian;
     return std::isfinite(value) ? value : 0.0; // 0 at the ends of infinite intervals
   };
-  const mc::CubatureResult r = mc::integrate_boxes(f, domain.chart.dim, {mc::UnitBox()});
+  mc::CubatureResult r = mc::integrate_boxes(f, domain.chart.dim, {mc::UnitBox()});
   mc::require(r.total.value > 0, "--pdf: the expression was 0 at every point that was evaluated");
+  for (int round = 0; round < 8 && (r.total.value < 0.5 || r.total.value > 2); ++round) {
+    scale *= r.total.value;
+    r = mc::integrate_boxes(f, domain.chart.dim, {mc::UnitBox()});
+    mc::require(r.total.value > 0 && std::isfinite(scale), "--pdf: its integral, about {:g}, is beyond doubles", scale);
+  }
   mc::require(r.total.error <= 1e-3 * r.total.value,
               "--pdf: its integral is {:.6g} to within {:.2g} only; give a density that integrates to 1 instead of "
               "--unnormalized",
-              r.total.value, r.total.error);
-  return {r.total.value, r.total.error / r.total.value};
+              r.total.value * scale, r.total.error * scale);
+  return {r.total.value * scale, r.total.error / r.total.value};
 }
 
 std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
@@ -211,6 +219,9 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
     const mc::AnyDomain::DomainPoint at = f->domain.chart.from_unit(v);
     return f->density(numbers(f->domain, at.x)) * at.jacobian;
   };
+  s.resolution = [f, epsilon = s.epsilon](const Subject::Coordinates& v, int axis) {
+    return mc::resolution(f->domain.chart, epsilon, v, static_cast<std::size_t>(axis));
+  };
   s.describe_draw = [f, shuffler](std::uint64_t stream, std::uint64_t index) {
     const std::uint32_t row = shuffler->row(shuffler->open(stream, 0) + index);
     return fmt::format("{}, pdf = {:.9g}", f->text(row), f->density({f->table.row(row), f->columns()}));
@@ -219,6 +230,21 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
     return fmt::format("({:.6g})", fmt::join(numbers(f->domain, f->domain.chart.from_unit(v).x), ", "));
   };
   return s;
+}
+
+// The rows in the order of the file.
+OrderedSamples in_order(const Samples& f, std::span<const double> probabilities) {
+  OrderedSamples samples{{}, f.domain.chart.axes, f.domain.chart.dim, probabilities};
+  if (!probabilities.empty()) {
+    samples.axes = {{"i"}};
+    samples.dim = 1;
+  }
+  for (std::uint32_t i = 0; i < f.table.rows(); ++i) {
+    mc::PointArray x{};
+    std::copy_n(f.table.row(i), f.columns(), x.begin());
+    samples.points.push_back(probabilities.empty() ? f.domain.chart.to_unit(x) : Subject::Coordinates{x[0], 0, 0});
+  }
+  return samples;
 }
 
 } // namespace
@@ -238,11 +264,12 @@ SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
   if (o.unnormalized) c.one.rerun_arguments += " --unnormalized";
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);
-  c.one.check = [file, atoms, title = c.one.title()](const CaseOptions& options) {
+  if (o.dependent) c.one.rerun_arguments += " --dependent";
+  c.one.check = [file, atoms, title = c.one.title(), dependent = o.dependent](const CaseOptions& options) {
     Subject subject =
         atoms.empty() ? continuous_subject(file, options.seed) : discrete_subject(file, atoms, options.seed);
     subject.name = title;
-    return mc::check_subject(subject, options);
+    return check_rows(subject, in_order(*file, atoms), dependent, options);
   };
   return c;
 }

@@ -1,3 +1,4 @@
+#include <input/check_rows.h>
 #include <input/csv.h>
 #include <input/row_shuffler.h>
 #include <input/samples_density.h>
@@ -250,6 +251,16 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
   return s;
 }
 
+// The samples on the unit square of the grid, in the order of the file.
+OrderedSamples in_order(const SamplesFile& f) {
+  OrderedSamples samples{{}, f.domain.axes(), f.domain.columns() == 1 ? 1 : 2};
+  for (std::size_t i = 0; i < f.table.rows(); ++i) {
+    const auto p = f.domain.to_square(f.table.row(i));
+    samples.points.push_back(p ? Subject::Coordinates{(*p)[0], (*p)[1], 0} : Subject::Coordinates{});
+  }
+  return samples;
+}
+
 } // namespace
 
 SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
@@ -264,8 +275,9 @@ SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
   if (options.unnormalized) c.one.rerun_arguments += " --unnormalized";
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);
-  c.one.check = [file, title = c.one.title()](const CaseOptions& o) {
-    return mc::check_subject(subject_of(file, title, o.seed), o);
+  if (options.dependent) c.one.rerun_arguments += " --dependent";
+  c.one.check = [file, title = c.one.title(), dependent = options.dependent](const CaseOptions& o) {
+    return check_rows(subject_of(file, title, o.seed), in_order(*file), dependent, o);
   };
   return c;
 }

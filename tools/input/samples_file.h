@@ -17,6 +17,7 @@ struct SamplesFileOptions {
   std::string domain;
   std::string breaks;        ///< for an expression, see parse_breaks; may be empty
   bool unnormalized = false; ///< the input is only proportional to the density
+  bool dependent = false;    ///< the rows need not be independent; else their order and evenness are tested
 };
 
 /// A case and the largest number of samples that its checks can use.

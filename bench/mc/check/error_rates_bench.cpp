@@ -1,8 +1,9 @@
 // Measures how often the checker rejects random correct subjects, and how often it misses random faults, by kind and
 // size.
-// Usage: bench_mc_check_error_rates right|narrow|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
+// Usage: bench_mc_check_error_rates right|narrow|rounded|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
 //   right   : random correct subjects of random_subjects.h.
 //   narrow  : random correct subjects with narrow features.
+//   rounded : random correct subjects that rounding makes difficult. A lobe narrower than its steps is inconclusive.
 //   faults  : random faults of random_faults.h in correct subjects, with sizes around the detectable size.
 //   promise : random faults of the size that the report of the correct subject calls detectable.
 //   foreign : CASES seeds of each subject of regression_subjects.h.
@@ -29,7 +30,10 @@ struct Options {
 };
 
 mc::Report check(const Subject& subject, std::uint64_t seed, const Options& o) {
-  return check_subject(subject, {.samples = static_cast<std::uint64_t>(o.samples), .seed = seed, .alpha = 0.01});
+  return check_subject(subject, {.samples = static_cast<std::uint64_t>(o.samples),
+                                 .seed = seed,
+                                 .alpha = 0.01,
+                                 .open_interval = o.what == "rounded"});
 }
 
 // Returns a fault of random kind. Its size is between a fifth and five times the detectable size, approximately.
@@ -86,6 +90,8 @@ void run(const Options& o) {
       one_case(seed, {"right", 0, random_correct(seed)});
     } else if (o.what == "narrow") {
       one_case(seed, {"right", 0, random_narrow(seed)});
+    } else if (o.what == "rounded") {
+      one_case(seed, {"right", 0, random_rounded(seed)});
     } else {
       const Subject right = random_continuous(seed);
       if (right.name.find(o.name) == std::string::npos) continue;

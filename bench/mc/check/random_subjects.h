@@ -5,6 +5,7 @@
 #include <mc/check/subject/subject.h>
 #include <mc/random/pcg.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -25,6 +26,9 @@ Subject random_continuous(std::uint64_t seed);
 /// Returns a narrow feature on a uniform background, which random points easily miss: a ring, a spot, a ridge or a skew
 /// tube.
 Subject random_narrow(std::uint64_t seed);
+/// Returns a subject that rounding makes difficult: a beta distribution with poles, a Dirichlet distribution on the
+/// triangle, a lobe of any width by a formula that cancels, in float or double, or up to 1e7 uniform outcomes.
+Subject random_rounded(std::uint64_t seed);
 
 /// A table of random size and texture, with or without its breaks.
 Subject table_1d(Pcg& r);
@@ -56,5 +60,14 @@ Subject lobe_on_sphere(double k, double kappa, const mc::Vec3<double>& pole);
 /// Returns the uniform distribution on the part of the unit square where `inside` is true; `area` is its area.
 Subject uniform_inside(std::string name, double area, const std::function<bool(const mc::Vec2<double>&)>& inside);
 Subject uniform_ball_in_box(double radius);
+/// Returns the density of a beta distribution with samples of another one; equal parameters are correct.
+Subject beta_subject(double a, double b, double sampled_a, double sampled_b);
+/// Returns the density of a Dirichlet distribution on the triangle (x, y, 1 - x - y) with samples of another one.
+Subject dirichlet_subject(const std::array<double, 3>& a, const std::array<double, 3>& sampled);
+/// Returns a lobe about +z of about this width of 1 - cos theta: Henyey-Greenstein by the usual formula, or von
+/// Mises-Fisher by [Wood94].
+Subject narrow_lobe(bool in_float, bool of_wood, double width);
+/// Returns n outcomes of probability 1/n.
+Subject uniform_outcomes(std::size_t n);
 
 } // namespace checker_bench

@@ -3,12 +3,14 @@
 #include <mc/check/fit/alpha_shares.h>
 #include <mc/check/fit/expected/mass.h>
 #include <mc/check/fit/interior_density.h>
+#include <mc/check/fit/lattice.h>
 #include <mc/check/fit/tests/axis_intervals.h>
 #include <mc/check/fit/tests/density_ratio.h>
 #include <mc/check/fit/tests/marginal_bins.h>
 #include <mc/check/fit/tests/rotation.h>
 #include <mc/check/fit/tests/spectrum.h>
 #include <mc/check/fit/tests/uniformity.h>
+#include <mc/check/fit/unresolved_ends.h>
 #include <mc/check/summary.h>
 #include <mc/core/error.h>
 #include <mc/random/hash.h>
@@ -282,10 +284,20 @@ void prepend_finding(std::vector<Check>& checks, const std::string& finding) {
   prepend([](const Check& c) { return c.p && *c.p < 1e-9; });
 }
 
-// Names the worst region where the mass shows that the samples are wrong, not the density.
-void place_wrong_samples(std::vector<Check>& checks, const std::string& region) {
-  for (Check& c : checks)
-    if (c.name == "mass" && c.fault == Fault::shape && !region.empty()) c.detail = region + "; " + c.detail;
+// Whether a failed test of the mass shows wrong samples: the samples, which estimate the mass, contradict the density
+// also given their number, and random points alone do not find too much mass.
+bool is_of_samples(const Check& test, const ClaimedMass& mass, const std::vector<Check>& of_counts) {
+  const auto failed = [](const Check& c) { return c.verdict == Verdict::fail; };
+  return failed(test) && !mass.by_cubature && std::any_of(of_counts.begin(), of_counts.end(), failed) &&
+         !(mass.from_points > 1 + 4 * mass.from_points_error);
+}
+
+// Changes a failed test of the mass into a finding about the samples, in the worst region.
+void blame_samples(Check& mass_test, const std::string& region) {
+  if (mass_test.fault == Fault::mass)
+    mass_test.detail = "the mean weight of the samples is off, since they do not follow the density";
+  mass_test.fault = Fault::shape;
+  if (!region.empty()) mass_test.detail = region + "; " + mass_test.detail;
 }
 
 // If a rotation about the pole explains the counts, reports it as the likely cause.
@@ -305,14 +317,30 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
   }
 }
 
+// Coarse rounding is a warning. It explains every failed statistical test of the density: none of them is conclusive.
+void recognise_rounding(const Subject& s, const Pilot& pilot, std::vector<Check>& checks) {
+  const auto of_density = [](const Check& c) {
+    const bool density = c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom ||
+                         c.fault == Fault::rotation;
+    return c.verdict == Verdict::fail && c.p && density;
+  };
+  std::vector<Check> coarse = find_coarse(s, pilot);
+  if (coarse.empty()) return;
+  const bool any = std::any_of(checks.begin(), checks.end(), of_density);
+  for (Check& c : coarse) c.verdict = any ? Verdict::inconclusive : Verdict::warning;
+  for (Check& c : checks)
+    if (of_density(c)) c.verdict = Verdict::inconclusive;
+  checks.insert(checks.begin(), coarse.begin(), coarse.end());
+}
+
 } // namespace
 
-Report check_subject(const Subject& s, const SubjectOptions& options) {
+Report check_subject(const Subject& given, const SubjectOptions& options) {
   if (options.before_draws) {
-    Subject watched = s;
+    Subject watched = given;
     watched.draw = [&](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& draws) {
       (*options.before_draws)();
-      s.draw(stream, n, draws);
+      given.draw(stream, n, draws);
     };
     SubjectOptions others = options;
     others.before_draws = nullptr;
@@ -322,6 +350,9 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   require(options.alpha > 0 && options.alpha < 1, "check_subject: alpha = {} must lie in (0, 1)", options.alpha);
   const auto start = std::chrono::steady_clock::now();
   const double n = static_cast<double>(options.samples);
+  const Subject averaged = average_unresolved_ends(given);
+  const Pilot pilot = given.dim > 0 ? draw_pilot(averaged, hash(options.seed, 1), options.samples) : Pilot{};
+  const Subject s = with_lattices(averaged, pilot);
   Report report;
   report.subject = s.name;
   report.alpha = options.alpha;
@@ -329,7 +360,6 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   report.axes = named_axes(s);
   if (options.evidence) report.evidence.emplace();
 
-  const Pilot pilot = s.dim > 0 ? draw_pilot(s, hash(options.seed, 1), options.samples) : Pilot{};
   Layout layout = lay_out(s, pilot, options);
   ProgressCallback on_progress;
   if (options.evidence)
@@ -348,7 +378,12 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   append(report.checks, check_draws(s, merge(counts.stats, pilot.stats), options.open_interval));
   append(report.checks, judge_density(s, layout));
   append(report.checks, find_unresolved(s, pilot));
-  report.checks.push_back(test_mass(s, mass, options.alpha));
+  CellTests tests = judge_counts(s, layout, counts.cells, counts.stats, options.alpha);
+  const std::string region = describe_worst_region(s, layout.boxes, layout.cells);
+  Check mass_test = test_mass(s, mass, options.alpha);
+  const bool of_samples = is_of_samples(mass_test, mass, tests.checks);
+  if (of_samples || mass_test.fault == Fault::shape) blame_samples(mass_test, region);
+  if (!of_samples) report.checks.push_back(mass_test);
   append(report.checks, judge_inverse(s, hash(options.seed, 5), options.samples, options.alpha));
   const auto intervals = s.dim > 0 ? find_axis_intervals(s, pilot, counts.coordinates) : std::vector<AxisInterval>();
   const auto judge_intervals = [&](AxisInterval::Kind kind) {
@@ -357,15 +392,14 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     report.checks.push_back(test_axis_intervals(s, kind, intervals, counts.kept, total, options.alpha));
   };
   judge_intervals(AxisInterval::Kind::atom);
-  CellTests tests = judge_counts(s, layout, counts.cells, counts.stats, options.alpha);
-  const std::string region = describe_worst_region(s, layout.boxes, layout.cells);
-  place_wrong_samples(report.checks, region);
   prepend_finding(tests.checks, region);
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
+  if (of_samples) report.checks.push_back(mass_test);
   judge_intervals(AxisInterval::Kind::gap); // after the shape tests, which also find wide gaps
   if (s.dim > 0) append(report.checks, judge_detail(s, pilot, layout, counts, mass.value, options.alpha));
   if (s.may_fail) report.checks.push_back(test_failures(s, counts.stats, mass.value, mass.error, options.alpha));
+  recognise_rounding(s, pilot, report.checks);
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
 

@@ -1,5 +1,6 @@
 #include <mc/check/check_subject.h>
 
+#include <mc/check/random_subjects.h>
 #include <mc/check/subject/make_subject.h>
 #include <mc/core/error.h>
 #include <mc/domain/hemisphere.h>
@@ -329,6 +330,60 @@ TEST(CheckSubject, PlotData_HasDiscreteOutcomes) {
   EXPECT_EQ(r.evidence->outcomes[0].observed + r.evidence->outcomes[1].observed, 10'000);
   EXPECT_EQ(r.evidence->outcomes[1].expected, 5000);
   EXPECT_THAT(r.to_string(), testing::HasSubstr(": outcome 0 has 4"));
+}
+
+// Exactly right densities, whose integral neither cubature nor random points give exactly, with wrong samples.
+TEST(CheckSubject, WrongSamplesOfRightDensity_AreNoFaultOfMass) {
+  using checker_bench::beta_subject, checker_bench::dirichlet_subject;
+  const std::array<double, 3> a{0.3, 0.5, 0.2};
+  mc::Subject lobe = checker_bench::narrow_lobe(false, true, 1e-9);
+  lobe.draw = [wider = checker_bench::narrow_lobe(false, true, 3e-9)](std::uint64_t seed, std::size_t n,
+                                                                      std::vector<mc::Subject::Draw>& out) {
+    wider.draw(seed, n, out);
+    for (mc::Subject::Draw& d : out) d.density = -1;
+  };
+  std::vector<mc::Subject> wrong{beta_subject(0.5, 0.5, 0.6, 0.6), beta_subject(0.5, 0.5, 0.5, 0.51),
+                                 beta_subject(0.2, 0.2, 0.3, 0.3), lobe};
+  for (const std::array<double, 3>& sampled :
+       {std::array{0.5, 0.3, 0.2}, {0.3, 0.5, 0.21}, {1.0, 1.0, 1.0}, {0.31, 0.5, 0.2}, {0.2, 0.2, 0.2}})
+    wrong.push_back(dirichlet_subject(a, sampled));
+  for (const mc::Subject& s : wrong) {
+    const mc::Report r = check_subject(s, {.samples = 200'000, .open_interval = true});
+    EXPECT_EQ(r.verdict(), Verdict::fail) << r.to_string(mc::ReportText::full);
+    for (const mc::Check& c : r.checks) EXPECT_FALSE(c.verdict == Verdict::fail && c.fault == Fault::mass) << c.detail;
+  }
+}
+
+// Right samples and a density with a factor.
+TEST(CheckSubject, ScaledDensityWithPole_IsFaultOfMass) {
+  for (const double factor : {0.9, 1.1}) {
+    mc::Subject s = checker_bench::beta_subject(0.2, 0.3, 0.2, 0.3);
+    s.density = [factor, right = s.density](const mc::Subject::Coordinates& v) { return factor * right(v); };
+    s.draw = [draw = s.draw](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
+      draw(seed, n, out);
+      for (mc::Subject::Draw& d : out) d.density = -1;
+    };
+    const mc::Report r = check_subject(s, {.samples = 200'000, .open_interval = true});
+    EXPECT_EQ(r.fault(), Fault::mass) << r.to_string();
+  }
+}
+
+// A cosine lobe of a wrong exponent: theta is wrong, phi is exactly uniform.
+TEST(CheckSubject, WrongPolarAngle_FailsNoTestOfTheAzimuth) {
+  const auto sampler = [](Pcg& r) {
+    const double z = std::pow(r.uniform<double>(), 1 / 2.5), phi = 2 * mc::pi<double> * r.uniform<double>();
+    const double s = std::sqrt(1 - z * z);
+    return V(s * std::cos(phi), s * std::sin(phi), z);
+  };
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const mc::Report r = check_subject(make_subject("exponent", mc::Hemisphere<double>{}, sampler, cosine_pdf),
+                                       {.samples = 300'000, .seed = seed});
+    EXPECT_EQ(r.fault(), Fault::shape);
+    for (const mc::Check& c : r.checks) {
+      const bool of_azimuth = c.name == "KS, phi" || c.name == "tails, phi" || c.name == "correlation, theta and phi";
+      EXPECT_FALSE(of_azimuth && c.verdict != Verdict::pass) << c.name << ": " << c.detail;
+    }
+  }
 }
 
 } // namespace

@@ -52,14 +52,16 @@ constexpr std::uint64_t most_rounded = 3;
 // Returns the density next to a point that has none itself. Once violations exceed the tolerance the distribution is
 // broken, and the search stops: its density may be slow.
 std::optional<double> rounded_from(const Subject& s, const Subject::Draw& d, const DrawStats& stats) {
-  if (d.pdf_positive || d.kind != Kind::point || stats.zero_pdf.count + stats.non_finite_pdf.count > most_rounded)
-    return {};
+  if (d.pdf_positive || d.kind != Kind::point) return {};
+  if (d.at_pole) return d.density;
+  if (stats.zero_pdf.count + stats.non_finite_pdf.count > most_rounded) return {};
   if (d.density == 0) // the map through the chart rounds, too
     if (const double there = s.density(d.v); there > 0 && std::isfinite(there)) return there;
   return adjacent_density(s, d.v);
 }
 
 DrawStats::Violation& density_violation(const Subject& s, const Subject::Draw& d, bool is_rounded, DrawStats& stats) {
+  if (d.at_pole) return stats.boundary_non_finite_pdf;
   if (is_rounded) return std::isfinite(s.density(d.v)) ? stats.boundary_zero_pdf : stats.boundary_non_finite_pdf;
   if (!std::isfinite(d.density)) return stats.non_finite_pdf;
   return d.kind == Kind::point && d.density < 0 && s.density(d.v) < 0 ? stats.negative_pdf : stats.zero_pdf;
@@ -202,10 +204,12 @@ std::vector<Check> check_draws(const Subject& s, const DrawStats& stats, bool op
   DrawStats::Violation leak = stats.zero_pdf, edge = stats.boundary_non_finite_pdf;
   merge(stats.zero_pdf.count + stats.boundary_zero_pdf.count > most_rounded ? leak : edge, stats.boundary_zero_pdf);
   add("pdf > 0 at samples", leak, Fault::zero_pdf, count(leak), 0, "pdf is 0, should be > 0 at every sample");
-  if (edge.count > 0 && !open_interval)
+  if (edge.count > 0 && !open_interval) {
     add("pdf at boundaries and jumps", edge, Fault::measure_zero, count(edge), 0,
         "pdf is 0 or infinite, on a boundary or a jump of the density; option open_interval (carlo validate "
         "--open-interval) accepts such samples as measure zero");
+    checks.back().verdict = Verdict::warning;
+  }
   const bool describes = s.describe_weight && stats.weight.count > 0;
   add("weight = f / pdf", stats.weight, Fault::weight, stats.max_weight_error, s.weight_tolerance,
       describes ? s.describe_weight(stats.weight.seed, stats.weight.index)

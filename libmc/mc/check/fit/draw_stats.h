@@ -19,7 +19,8 @@ struct DrawStats {
   Violation failed, outside, not_finite, weight;
   Violation zero_pdf, non_finite_pdf; ///< pdf = 0; pdf is not finite
   Violation negative_pdf;             ///< pdf < 0
-  /// pdf = 0 and pdf not finite at points with a correct density next to them: on a face of the chart or at a jump.
+  /// pdf = 0 and pdf not finite at points with a correct density next to them: on a face of the chart or at a jump. The
+  /// second includes every pdf at Draw::at_pole.
   Violation boundary_zero_pdf, boundary_non_finite_pdf;
   /// Largest |weight - 1| beyond the change of the density within four steps of rounding.
   double max_weight_error = 0;

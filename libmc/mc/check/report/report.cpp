@@ -16,6 +16,7 @@ std::string_view name(Verdict v) {
   case Verdict::pass: return "pass";
   case Verdict::fail: return "fail";
   case Verdict::inconclusive: return "inconclusive";
+  case Verdict::warning: return "warning";
   }
   return "";
 }
@@ -42,6 +43,8 @@ std::string_view name(Fault f) {
   case Fault::shape: return "shape: the samples follow a different density";
   case Fault::local: return "local: single cells contain too many or too few samples";
   case Fault::physics: return "physics: f violates reciprocity, energy conservation or its sign";
+  case Fault::rounding: return "rounding: the samples have too few distinct values for this density";
+  case Fault::dependent: return "dependent: the samples depend on each other, or their counts are too even";
   case Fault::bias: return "bias: the mean of the estimates differs from the true value";
   }
   return "";
@@ -121,12 +124,14 @@ std::string describe_leading(const Check& c) {
   return fmt::format("\n  {}: {}{}{}", c.p ? "test" : "law", c.name, measure(c), remarks(c.detail));
 }
 
-std::string describe_others(const Report& r, const Check& leading) {
+// Describes the checks that do not pass, except the leading one, which may be null.
+std::string describe_others(const Report& r, const Check* leading) {
   std::string text;
   for (const Check& c : r.checks) {
-    if (c.verdict == Verdict::pass || &c == &leading) continue;
-    text += fmt::format("\n  {}: {}{}{}{}", c.verdict == Verdict::fail ? "also fails" : "inconclusive", c.name,
-                        measure(c), c.detail.empty() ? "" : ": ", c.detail);
+    if (c.verdict == Verdict::pass || &c == leading) continue;
+    text +=
+        fmt::format("\n  {}: {}{}{}{}", c.verdict == Verdict::fail ? std::string_view("also fails") : name(c.verdict),
+                    c.name, measure(c), c.detail.empty() ? "" : ": ", c.detail);
   }
   return text;
 }
@@ -153,6 +158,12 @@ std::string describe_cells(const Report& r, const Check& leading) {
 }
 
 } // namespace
+
+const Check* Report::warning() const {
+  for (const Check& c : checks)
+    if (c.verdict == Verdict::warning) return &c;
+  return nullptr;
+}
 
 const Check* Report::leading() const {
   if (const Check* failed = leading_failure(checks)) return failed;
@@ -187,6 +198,8 @@ std::string Report::untried_text() const {
 
 std::string Report::verdict_text() const {
   std::string text(name(verdict()));
+  if (const Check* w = warning(); w && passed())
+    text += w->fault == Fault::rounding ? " (coarse rounding)" : " (boundary of measure zero)";
   if (is_statistical()) text += fmt::format(", {} ({} samples, alpha {:.3g})", p_text(p()), samples, alpha);
   if (!passed()) return text + ": " + finding();
   if (!(detectable > 0)) return text;
@@ -200,7 +213,9 @@ std::string Report::to_string(ReportText detail, std::string_view hint) const {
   if (c) {
     if (fault() != Fault::none) text += fmt::format("\n  likely cause: {}", name(fault()));
     text += describe_leading(*c);
-    text += detail == ReportText::brief ? fold_others(*this, *c, hint) : describe_others(*this, *c);
+    text += detail == ReportText::brief ? fold_others(*this, *c, hint) : describe_others(*this, c);
+  } else if (warning()) {
+    text += describe_others(*this, nullptr);
   }
   if (detail == ReportText::brief) return text;
   if (c) text += describe_cells(*this, *c);

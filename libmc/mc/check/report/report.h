@@ -14,10 +14,11 @@
 namespace mc {
 
 /// Result of a check. `inconclusive`: the test itself is not reliable, for example because its quadrature did not
-/// converge. It never counts as a pass.
-enum class Verdict { pass, fail, inconclusive };
+/// converge. It never counts as a pass. `warning`: a finding that is no wrong density, such as a pdf of 0 at single
+/// points, or coarse rounding. A report with warnings alone is a pass.
+enum class Verdict { pass, fail, inconclusive, warning };
 
-/// "pass", "fail" or "inconclusive".
+/// "pass", "fail", "inconclusive" or "warning".
 std::string_view name(Verdict v);
 
 /// The likely cause of a failed check.
@@ -42,6 +43,8 @@ enum class Fault {
   shape,            ///< the samples follow a density other than the claimed one
   local,            ///< single cells contain too many or too few samples
   physics,          ///< f violates reciprocity, energy conservation or its sign
+  rounding,         ///< the samples have too few distinct values for the density
+  dependent,        ///< the samples depend on each other
   bias              ///< the mean of the estimates differs from the true value
 };
 
@@ -140,7 +143,8 @@ struct Report {
   std::vector<ReportedValue> figures; ///< quantities without a verdict
   std::vector<UntriedLaw> untried;    ///< laws that were not tried
 
-  Verdict verdict() const; ///< fail if any check fails, else inconclusive if any is inconclusive, else pass
+  const Check* warning() const; ///< the first warning; null if there is none
+  Verdict verdict() const;      ///< fail if any check fails, else inconclusive if any is inconclusive, else pass
   bool passed() const { return verdict() == Verdict::pass; } ///< whether the verdict is pass
   /// Returns the family-wise adjusted p-value, weighted Sidak over the statistical checks; 1 without such checks.
   double p() const;

@@ -146,7 +146,8 @@ template <Real S, class Bsdf> double ns_per_scatter(const Bsdf& bsdf, const Vec3
 /// Erases the type of a BSDF, any object with
 ///   sample(wo, uc, u) or sample(wo, u) -> optional of {wi, pdf, f or weight, perhaps delta and transmission}
 ///   eval(wo, wi) -> f,  pdf(wo, wi)
-/// where weight = f |cos| / pdf. A sample with other members, but without f and weight, does not compile. The result lacks eval and pdf if the BSDF lacks them.
+/// where weight = f |cos| / pdf. A sample with other members, but without f and weight, does not compile. The result
+/// lacks eval and pdf if the BSDF lacks them.
 template <Real S, SamplesDirections<S> Bsdf> AnyBsdf any_bsdf(const Bsdf& given) {
   using Drawn = detail::BsdfSampleOf<Bsdf, S>;
   const auto bsdf = std::make_shared<const Bsdf>(given);

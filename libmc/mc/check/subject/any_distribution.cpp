@@ -32,6 +32,17 @@ Kind kind_of(const AnyDistribution& s, const std::optional<AnyDistribution::Samp
 
 } // namespace
 
+double resolution(const AnyDomain& domain, double epsilon, const Subject::Coordinates& v, std::size_t axis) {
+  const PointArray x = domain.from_unit(v).x;
+  double worst = epsilon * v[axis];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(domain.point_size); ++i) {
+    PointArray y = x;
+    y[i] *= 1 + epsilon;
+    worst = std::max(worst, std::abs(domain.to_unit(y)[axis] - v[axis]));
+  }
+  return worst;
+}
+
 ChartSample to_chart(const AnyDistribution& s, const std::optional<AnyDistribution::Sample>& drawn) {
   ChartSample p;
   Subject::Draw& d = p.draw;
@@ -164,18 +175,6 @@ std::string describe_weight(const AnyDistribution& s, std::uint64_t seed, std::u
   return drawn ? describe_stated(*drawn) : "sample fails";
 }
 
-// Returns the change of chart coordinate `axis` for a change of the point at v by one unit in the last place.
-double resolution(const AnyDistribution& s, const Subject::Coordinates& v, std::size_t axis) {
-  const PointArray x = s.domain.from_unit(v).x;
-  double worst = s.epsilon() * v[axis];
-  for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.point_size); ++i) {
-    PointArray y = x;
-    y[i] *= 1 + s.epsilon();
-    worst = std::max(worst, std::abs(s.domain.to_unit(y)[axis] - v[axis]));
-  }
-  return worst;
-}
-
 // Returns the state of a function made by set_shared; null for any other function.
 template <class Signature> const void* held_by(const std::function<Signature>& function) {
   const auto* call = function.template target<detail::SharedCall<Signature>>();
@@ -291,7 +290,7 @@ Subject make_subject(const AnyDistribution& distribution) {
       for (std::size_t i = 0; i < v.size(); ++i) densities[i] = pdf[i] * jacobians[i];
     };
   subject.resolution = [shared](const Subject::Coordinates& v, int axis) {
-    return resolution(*shared, v, static_cast<std::size_t>(axis));
+    return resolution(shared->domain, shared->epsilon(), v, static_cast<std::size_t>(axis));
   };
   subject.describe_point = [shared](const Subject::Coordinates& v) {
     const PointArray x = shared->domain.from_unit(v).x;

@@ -144,6 +144,10 @@ struct AnyDistribution {
   double max_u() const { return 1 - epsilon() / 2; } ///< the largest u
 };
 
+/// Returns the change of chart coordinate `axis` if the point at v changes by one unit in the last place of a scalar
+/// with this machine epsilon.
+double resolution(const AnyDomain& domain, double epsilon, const Subject::Coordinates& v, std::size_t axis);
+
 /// Returns the next random point of the unit cube, in the precision of the distribution's scalar.
 AnyDistribution::Uniforms random_uniforms(const AnyDistribution& distribution, Pcg& random);
 

@@ -50,7 +50,7 @@ bool steps_at_pole(const std::vector<SampledPoint>& points, const Axis& axis, st
     const double steps = axis.b * p.v[k] * 0x1p24, rounded = std::round(steps);
     if (!(steps < 0x1p16)) continue;
     ++near;
-    whole += std::abs(steps - rounded) < 0.05;
+    whole += rounded == 0 ? steps == 0 : std::abs(steps - rounded) < 0.05;
     moved += rounded != 0;
     fine += std::fmod(rounded, 2 << spare_bits) != 0;
   }

@@ -38,6 +38,7 @@ struct Subject {
       not_finite              ///< a coordinate is NaN or infinite
     } kind = Kind::point;     ///< kind of the draw
     bool pdf_positive = true; ///< the claimed density at the drawn point is positive and finite
+    bool at_pole = false;     ///< so near a pole at an end of the chart that rounding decides whether the pdf is finite
     int atom = -1;            ///< index of a discrete outcome (delta lobe, table index)
     Coordinates v{};          ///< chart coordinates
     double weight = 1;        ///< stated weight * pdf / f if a weight is stated; 1 when they agree

@@ -146,15 +146,28 @@ TEST(Law, Determinism_ConstantSample_IsAtom) {
   EXPECT_THAT(full(r), HasSubstr("sample depends on u"));
 }
 
-TEST(Law, Boundary_ZeroUFails_IsMeasureZeroAndAcceptable) {
+// Whether a report passes with a warning of measure zero.
+bool is_warned(const mc::Report& r) { return r.passed() && r.warning() && r.warning()->fault == Fault::measure_zero; }
+
+TEST(Law, Boundary_SampleFailsAtZeroU_IsMeasureZero) {
+  const auto tried = [](bool open) {
+    return mc::check_laws(
+        mc::Interval<double>(0, 1), [](double u) { return std::exp(std::log(u)) / (u > 0 ? 1.0 : 0.0); },
+        [](double) { return 1.0; }, {.samples = 20'000, .open_interval = open});
+  };
+  EXPECT_EQ(tried(false).fault(), Fault::measure_zero) << tried(false).to_string();
+  EXPECT_THAT(tried(false).to_string(), HasSubstr("--open-interval"));
+  EXPECT_TRUE(tried(true).passed()) << tried(true).to_string();
+}
+
+TEST(Law, Boundary_ZeroPdfAtZeroU_IsWarning) {
   const auto interval = [](auto sample, auto pdf, bool open) {
     return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, {.samples = 20'000, .open_interval = open});
   };
   const auto root = [](double u) { return std::sqrt(u); };
   const auto ramp = [](double x) { return 2 * x; };
   const mc::Report closed = interval(root, ramp, false);
-  EXPECT_EQ(closed.fault(), Fault::measure_zero) << closed.to_string();
-  EXPECT_THAT(closed.to_string(), HasSubstr("--open-interval"));
+  EXPECT_TRUE(is_warned(closed)) << closed.to_string();
   EXPECT_TRUE(interval(root, ramp, true).passed()) << interval(root, ramp, true).to_string();
   // A wrong density and an edge of positive measure still fail.
   EXPECT_NE(interval(
@@ -178,15 +191,14 @@ TEST(Law, Boundary_PdfZeroAtOnePoint_IsMeasureZero) {
     const auto pdf = [gap](S x) { return std::abs(static_cast<double>(x)) <= gap ? S(0) : std::abs(x); };
     return mc::check_laws(mc::Interval<S>(-1, 1), root, pdf, {.samples = 20'000, .open_interval = open});
   };
-  EXPECT_EQ(tried(0.0, 0, false).fault(), Fault::measure_zero) << tried(0.0, 0, false).to_string();
-  EXPECT_EQ(tried(0.0f, 0, false).fault(), Fault::measure_zero) << tried(0.0f, 0, false).to_string();
+  EXPECT_TRUE(is_warned(tried(0.0, 0, false))) << tried(0.0, 0, false).to_string();
+  EXPECT_TRUE(is_warned(tried(0.0f, 0, false))) << tried(0.0f, 0, false).to_string();
   EXPECT_TRUE(tried(0.0, 0, true).passed()) << tried(0.0, 0, true).to_string();
   EXPECT_EQ(tried(0.0, 1e-7, true).fault(), Fault::boundary) << "more than one u";
   AnyDistribution open =
       mc::make_distribution("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
   open.open_interval = true;
-  EXPECT_EQ(laws(open).fault(), Fault::measure_zero) << "it says that no u is 0: that excuses no other";
-  EXPECT_THAT(laws(open).to_string(), HasSubstr("open_interval of the distribution itself excludes only u = 0"));
+  EXPECT_TRUE(is_warned(laws(open))) << "it says that no u is 0: that excuses no other";
 }
 
 // The arcsine density is infinite at both ends, and the last u is rounded onto the upper end.
@@ -196,7 +208,7 @@ TEST(Law, Boundary_InfinitePdfAtDomainEdge_IsMeasureZero) {
     const auto pdf = [](double x) { return 1 / (mc::pi<double> * std::sqrt(x * (1 - x))); };
     return mc::check_laws(mc::Interval<double>(0, 1), sine, pdf, {.samples = 20'000, .open_interval = open});
   };
-  EXPECT_EQ(tried(2, false).fault(), Fault::measure_zero) << tried(2, false).to_string();
+  EXPECT_TRUE(is_warned(tried(2, false))) << tried(2, false).to_string();
   EXPECT_TRUE(tried(2, true).passed()) << tried(2, true).to_string();
   EXPECT_EQ(tried(2.2, true).fault(), Fault::shape);
 }

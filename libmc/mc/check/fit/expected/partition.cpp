@@ -59,7 +59,9 @@ struct Partition::Builder {
       if (!may_split || may_split(box, axis, *at, points[points.size() / 2])) return {*at, axis};
       refused = true;
     }
-    return {refused ? no_split : 0.5 * (box.lo[first] + box.hi[first]), first};
+    const double middle = 0.5 * (box.lo[first] + box.hi[first]);
+    if (may_split && !points.empty()) refused = refused || !may_split(box, first, middle, points[points.size() / 2]);
+    return {refused ? no_split : middle, first};
   }
 
   void split(int node, const UnitBox& box, Points points, int level) {

@@ -1,6 +1,7 @@
 #include <mc/check/fit/tests/axis_intervals.h>
 
 #include <mc/check/fit/alpha_shares.h>
+#include <mc/check/fit/lattice.h>
 #include <mc/stats/binomial.h>
 #include <mc/stats/multiple_testing.h>
 
@@ -16,6 +17,13 @@ namespace {
 double count_between(const std::vector<double>& sorted, double lo, double hi) {
   return static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), hi) -
                              std::lower_bound(sorted.begin(), sorted.end(), lo));
+}
+
+// Returns the number of samples per length of the axis around `count` equal samples, which do not count.
+double samples_per_length(const std::vector<double>& v, std::size_t first, std::size_t count) {
+  constexpr std::size_t around = 256;
+  const std::size_t lo = first > around ? first - around : 0, hi = std::min(first + count + around, v.size()) - 1;
+  return v[hi] > v[lo] ? static_cast<double>(hi - lo + 1 - count) / (v[hi] - v[lo]) : 0.0;
 }
 
 // Adds the atoms of an axis: the most frequent value up to rounding, and the values at both ends.
@@ -37,12 +45,15 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
     atom.equal = static_cast<double>(count);
     atom.pairs_elsewhere = static_cast<double>(pairs + 1 - count);
     const double at = v[first];
+    atom.per_length = samples_per_length(v, first, count);
     double blur = beyond(at) - at;
     for (const std::uint32_t i : s.resolution ? pilot.nearest(axis, at, 16) : std::vector<std::uint32_t>{}) {
       Subject::Coordinates p = pilot.points[i];
       p[axis] = at;
       blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
     }
+    // Near an end the density may be an average over a layer of this width.
+    if (std::min(at, 1 - at) < min_resolved_steps / 8 * blur) blur *= min_resolved_steps / 8;
     atom.box.lo[axis] = std::max(at - blur, 0.0);
     atom.box.hi[axis] = std::min(at + 2 * blur, 1.0);
     atom.count = count_between(v, atom.box.lo[axis], atom.box.hi[axis]);
@@ -58,10 +69,11 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
 
 // Samples that are rounded to steps are sometimes equal without an atom. The number of equal pairs elsewhere, plus one,
 // estimates the width of the steps. Returns the expected number of places where rounding makes atom.equal of n samples
-// equal: anywhere on the axis, or at one of the two ends. The steps are at most as coarse as 31 random bits or the
-// scalar; coarser steps are a fault.
+// equal: anywhere on the axis, or at one of the two ends. The steps are at most as coarse as rounding explains; coarser
+// steps are a fault.
 double chance_of_steps(const Subject& s, const AxisInterval& atom, double n) {
-  const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, n * std::max(0x1p-31, s.epsilon));
+  const double widest = std::max(n * std::max(0x1p-31, s.epsilon), atom.per_length * widest_lattice_step(s.epsilon));
+  const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, widest);
   const double at_a_place = (atom.equal - 1) * std::log(equal_to_one);
   return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - std::lgamma(atom.equal + 1)));
 }

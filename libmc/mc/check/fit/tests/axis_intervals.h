@@ -23,6 +23,7 @@ struct AxisInterval {
   EstimatedMass mass;         ///< mass of the claimed density
   bool at_end = false;        ///< at the smallest or the largest sample; a gap lies beyond it
   double equal = 0;           ///< atoms only: number of samples that are equal up to rounding
+  double per_length = 0;      ///< atoms only: number of samples per length of the axis nearby
   double pairs_elsewhere = 0; ///< atoms only: number of equal neighbours elsewhere on the axis
 };
 

@@ -214,8 +214,8 @@ void correlation(const PooledCells& cells, const std::vector<Axis>& named, std::
       1, share, alpha, fmt::format("the rank correlation is off by {:.3g}", (sum - n * mean) / n)));
 }
 
-// Returns the largest difference of the cumulative distributions along an axis. Each cell spreads its excess evenly over
-// its ranks, so that an error along another axis, which changes cells of any width, cancels.
+// Returns the largest difference of the cumulative distributions along an axis. Each cell spreads its excess evenly
+// over its ranks, so that an error along another axis, which changes cells of any width, cancels.
 double largest_cumulative_excess(const PooledCells& cells, std::size_t axis) {
   struct Event {
     double rank, slope, jump;
