@@ -1,0 +1,17 @@
+#include <process/cpu_time.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+TEST(CpuTime, GrowsWithWork) {
+  const double start = carlo::thread_cpu_seconds();
+  volatile unsigned spin = 0;
+  while (carlo::thread_cpu_seconds() < start + 0.01) spin = spin + 1;
+  EXPECT_GT(spin, 0u);
+  EXPECT_GE(carlo::clock_seconds(CLOCK_PROCESS_CPUTIME_ID), carlo::thread_cpu_seconds());
+}
+
+TEST(CpuTime, UnknownClockIsZero) { EXPECT_EQ(carlo::clock_seconds(static_cast<clockid_t>(12345)), 0); }
+
+} // namespace
