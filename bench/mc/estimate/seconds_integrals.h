@@ -7,7 +7,7 @@
 
 namespace bench {
 
-/// The first eight are smooth, kinked, cut, correlated, thin, singular, clipped and high-dimensional; eight more follow.
+/// Smooth, kinked, cut, correlated, thin, singular, clipped and high-dimensional ones, and eight more.
 std::vector<carlo::UnitCubeIntegral> seconds_integrals();
 
 } // namespace bench
