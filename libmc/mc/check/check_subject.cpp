@@ -320,8 +320,8 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
 // Coarse rounding is a warning. It explains every failed statistical test of the density: none of them is conclusive.
 void recognise_rounding(const Subject& s, const Pilot& pilot, std::vector<Check>& checks) {
   const auto of_density = [](const Check& c) {
-    const bool density = c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom ||
-                         c.fault == Fault::rotation;
+    const bool density =
+        c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom || c.fault == Fault::rotation;
     return c.verdict == Verdict::fail && c.p && density;
   };
   std::vector<Check> coarse = find_coarse(s, pilot);
