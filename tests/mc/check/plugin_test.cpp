@@ -27,7 +27,6 @@ TEST(PluginHeader, LayoutOfVersionOne) {
 }
 
 TEST(PluginHeader, LayoutOfVersionTwo) {
-  ASSERT_EQ(MC_PLUGIN_ABI, 2);
   EXPECT_EQ(offsetof(mc_sampler, outcomes), 176u);
   EXPECT_EQ(offsetof(mc_sampler, probability), 184u);
   EXPECT_EQ(offsetof(mc_sampler, breaks), 192u);
@@ -35,8 +34,19 @@ TEST(PluginHeader, LayoutOfVersionTwo) {
   EXPECT_EQ(offsetof(mc_integrand, dim), 16u);
   EXPECT_EQ(offsetof(mc_integrand, truth), 24u);
   EXPECT_EQ(offsetof(mc_integrand, eval), 48u);
-  EXPECT_EQ(sizeof(mc_integrand), 64u);
   EXPECT_EQ(sizeof(mc_plugin_info), 40u);
+}
+
+TEST(PluginHeader, LayoutOfVersionThree) {
+  ASSERT_EQ(MC_PLUGIN_ABI, 3);
+  EXPECT_EQ(offsetof(mc_integrand, outputs), 64u); // the size of version 2
+  EXPECT_EQ(offsetof(mc_integrand, uniforms), 68u);
+  EXPECT_EQ(offsetof(mc_integrand, output_names), 72u);
+  EXPECT_EQ(offsetof(mc_integrand, truths), 80u);
+  EXPECT_EQ(offsetof(mc_integrand, eval_outputs), 88u);
+  EXPECT_EQ(offsetof(mc_integrand, sample), 96u);
+  EXPECT_EQ(offsetof(mc_integrand, pdf), 104u);
+  EXPECT_EQ(sizeof(mc_integrand), 112u);
 }
 
 TEST(PluginHeader, CompilesAsC99) {
