@@ -220,7 +220,7 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
     return f->density(numbers(f->domain, at.x)) * at.jacobian;
   };
   s.resolution = [f, epsilon = s.epsilon](const Subject::Coordinates& v, int axis) {
-    return mc::resolution(f->domain.chart, epsilon, v, static_cast<std::size_t>(axis));
+    return mc::resolution(f->strict.chart, epsilon, v, static_cast<std::size_t>(axis));
   };
   s.describe_draw = [f, shuffler](std::uint64_t stream, std::uint64_t index) {
     const std::uint32_t row = shuffler->row(shuffler->open(stream, 0) + index);

@@ -17,7 +17,7 @@ namespace {
 using Coordinates = Subject::Coordinates;
 
 // No layer is wider.
-double widest_layer(const Subject& s) { return std::max(0x1p-20, 4096 * s.epsilon); }
+double widest_layer(const Subject& s) { return std::max(0x1p-10, 4096 * s.epsilon); }
 
 double from_end(double v) { return std::min(v, 1 - v); }
 
