@@ -1,5 +1,4 @@
 #include <plugin/program.h>
-#include <process/cpu_time.h>
 #include <process/tree.h>
 
 #include <mc/core/error.h>
@@ -95,11 +94,11 @@ void Program::ended(const char* what) {
 }
 
 double Program::cpu_seconds() {
-  // Reading the list of processes takes milliseconds.
+  // Reading the list of processes takes milliseconds. A young program may still start processes.
   const double now = clock_seconds(CLOCK_MONOTONIC);
   if (now >= next_look_) {
     processes_ = descendants(getpid());
-    next_look_ = clock_seconds(CLOCK_MONOTONIC) + 1;
+    next_look_ = now + std::clamp(now - start_, 0.01, 1.0);
   }
   double sum = 0;
   for (const pid_t id : processes_) {

@@ -8,6 +8,7 @@
 
 #include <plugin/run_isolated.h>
 #include <process/child.h>
+#include <process/cpu_time.h>
 
 #include <cstddef>
 #include <span>
@@ -41,7 +42,8 @@ class Program {
   ChildProcess child_;
   CallMonitor& monitor_;
   std::vector<pid_t> processes_;
-  double next_look_ = 0; ///< steady seconds at which processes_ is read again
+  double start_ = clock_seconds(CLOCK_MONOTONIC); ///< steady seconds at which the program was started
+  double next_look_ = 0;                          ///< steady seconds at which processes_ is read again
 };
 
 } // namespace carlo
