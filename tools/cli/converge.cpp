@@ -75,7 +75,7 @@ bool write(ResultWriter& results, const IntegralTarget& target, const Measuremen
   results.write(base + ".csv", false, to_csv(target, m));
   nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
   if (pictures) about["reference"] = {{"spp", pictures->reference_spp}, {"error", pictures->reference_error}};
-  results.write(base + ".json", false, ordered_json_text(to_json(target, m, about)));
+  results.write(base + ".json", false, json_text(to_json(target, m, about)));
   results.write(base + ".gp", false, to_script(target, m, name));
   fmt::print("{}", summary(target, m));
   const auto cut =

@@ -1,6 +1,7 @@
 #include <integrands/find.h>
 #include <integrate/derived.h>
 #include <integrate/histogram.h>
+#include <integrate/integrate_sets.h>
 #include <integrate/sweep.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
@@ -17,13 +18,12 @@
 #include <mc/core/file.h>
 #include <mc/core/text.h>
 #include <mc/estimate/adapt/density_file.h>
-#include <mc/estimate/values/histogram.h>
+#include <mc/estimate/values/quantiles.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <optional>
 
 namespace carlo {
@@ -77,17 +77,15 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            {"--derive", "EXPR", &o.derived,
             "Print a function of the integrals, e.g. \"A/B\" or \"A-B\", with the error that their covariance gives. A "
             "and B are names of --name; without names the integrals are I1, I2, ... The parts of a complex integral "
-            "end "
-            "in _re and _im. Can be given several times."},
+            "end in _re and _im. Can be given several times."},
            output_folder({"-o,--output", "FOLDER", &o.output,
                           "Folder for sweep.csv, .gp, .svg and .png of a sweep, as --set a=1:3:0.5 asks for."},
                          {"sweep.csv", "sweep.gp", "sweep.svg", "sweep.png"}),
            {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
            {"--histogram", "AXIS=BINS", &o.histogram,
             "Print the shares of the integral along a variable (u0, u1, ... of a named integrand), each with its "
-            "error. "
-            "AXIS=LO:HI:BINS: by any expression of the variables, e.g. \"x+y=0:2:20\". value=BINS: by the sizes of "
-            "values, in powers of 2."},
+            "error. AXIS=LO:HI:BINS: by any expression of the variables, e.g. \"x+y=0:2:20\". value=BINS: by the "
+            "sizes of values, in powers of 2."},
            {"--quantiles", "LIST", &o.quantiles,
             "Print quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95. Takes as many calls again, at least "
             "98 k and at most 2^24 / (dimensions + 1)."},
@@ -100,24 +98,21 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            input_file(
                {"--load-density", "FILE", &o.load_density,
                 "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
-                "where "
-                "it does not fit."}),
+                "where it does not fit."}),
            {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
        }},
   });
 }
 
-double number(std::string_view word, const char* option) {
-  const std::optional<double> value = mc::parse_double(word);
-  mc::require(value.has_value(), "{}: '{}' is not a number", option, word);
-  return *value;
-}
-
 std::vector<double> probabilities(const std::string& list) {
   std::vector<double> all;
-  if (!list.empty())
-    for (const std::string_view word : mc::split(list, ',')) all.push_back(number(word, "--quantiles"));
-  for (const double p : all) mc::require(p > 0 && p < 1, "--quantiles: {} must lie between 0 and 1", p);
+  if (list.empty()) return all;
+  for (const std::string_view word : mc::split(list, ',')) {
+    const std::optional<double> p = mc::parse_double(word);
+    mc::require(p.has_value(), "--quantiles: '{}' is not a number", word);
+    mc::require(*p > 0 && *p < 1, "--quantiles: {} must lie between 0 and 1", *p);
+    all.push_back(*p);
+  }
   return all;
 }
 
@@ -139,95 +134,6 @@ bool find_quantiles(IntegrateResults& found, const IntegrandSet& set, const std:
   if (!*interrupt.flag()) throw;
   fmt::print(stderr, "interrupted before the quantiles were found\n");
   return false;
-}
-
-// A constant, as a finite sum is: it has no error.
-mc::VectorIntegral exact(const mc::VectorIntegrand& f, std::size_t outputs) {
-  const std::vector<double> u = {0.5};
-  std::vector<double> values(outputs);
-  f(u, values);
-  mc::VectorIntegral r;
-  for (const double value : values) {
-    mc::require(std::isfinite(value), "the sum is {}; every term must be finite (see --where and --nan)", value);
-    mc::Integral sum{.estimate = {.value = value, .std_error = 0}, .interval = {value, value}};
-    sum.calls = 1;
-    r.outputs.push_back(sum);
-  }
-  r.correlations.assign(outputs * outputs, 0);
-  for (std::size_t i = 0; i < outputs; ++i) r.correlations[i * outputs + i] = 1;
-  return r;
-}
-
-// The integrands at one point of a sweep after those of another; one point if nothing is swept.
-using IntegrandSets = std::vector<IntegrandSet>;
-
-// Integrates all integrands together, or one with its histogram.
-mc::VectorIntegral results_of(const IntegrandSets& sets, const Histogram& histogram, const mc::IntegrateOptions& o) {
-  for (const IntegrandSet& set : sets)
-    if (set.expression) set.expression->take_replaced(); // of an earlier run
-  const IntegrandSet& first = sets.front();
-  const std::size_t each = first.integrands.size(), outputs = each * sets.size();
-  const auto f = [&](std::span<const double> points, std::span<double> values) {
-    if (sets.size() == 1) return evaluate(first, points, values);
-    const std::size_t dim = static_cast<std::size_t>(first.dim());
-    for (std::size_t i = 0; i < values.size() / outputs; ++i)
-      for (std::size_t p = 0; p < sets.size(); ++p)
-        evaluate(sets[p], points.subspan(i * dim, dim), values.subspan(i * outputs + p * each, each));
-  };
-  if (first.is_exact_sum())
-    return histogram.bins.empty() ? exact(f, outputs) : exact(histogram.f, 1 + histogram.bins.size());
-  if (!histogram.bins.empty()) return integrate(histogram, first.dim(), o);
-  if (outputs == 1) return {{mc::integrate_unit(mc::BatchIntegrand{f}, first.dim(), o)}, {1}};
-  return mc::integrate_unit(mc::BatchIntegrand{f}, static_cast<int>(outputs), first.dim(), o);
-}
-
-// The least absolute value of an integral, of a complex one the modulus.
-double least_modulus(const IntegrandSets& sets, const mc::VectorIntegral& r) {
-  double least = std::numeric_limits<double>::infinity();
-  std::size_t k = 0;
-  const auto value = [&] { return r.outputs[k++].estimate.value; };
-  for (const IntegrandSet& set : sets)
-    for (std::size_t i = 0; i < set.integrands.size(); ++i) {
-      const double first = value(), second = set.is_complex(i) ? value() : 0;
-      if (set.is_complex(i)) ++i;
-      least = std::min(least, std::hypot(first, second));
-    }
-  return least;
-}
-
-// The relative error of a complex integral is relative to its modulus, which a short run estimates first. Repeats a run
-// that converged too early because the modulus was smaller. Leaves the absolute error that was used in `o`.
-mc::VectorIntegral results_by_modulus(const IntegrandSets& sets, const Histogram& histogram, mc::IntegrateOptions& o) {
-  if (sets.front().texts.back() + 1 == sets.front().texts.size()) // no text has two integrands
-    return results_of(sets, histogram, o);
-  constexpr std::uint64_t short_run = 1 << 14;
-  constexpr int most_runs = 4;
-  const double given = o.abs_error;
-  mc::IntegrateOptions pilot = o;
-  pilot.max_calls = std::min(o.max_calls, short_run);
-  mc::VectorIntegral r = results_of(sets, histogram, pilot);
-  for (int run = 0; run < most_runs; ++run) {
-    o.abs_error = std::max(given, o.rel_error * least_modulus(sets, r));
-    r = results_of(sets, histogram, o);
-    const double wanted = std::max(given, o.rel_error * least_modulus(sets, r));
-    if (r.outputs.front().stop != mc::StopReason::converged || o.abs_error <= 1.01 * wanted) break;
-  }
-  return r;
-}
-
-// The message about a point u where the integrand is not finite, in the integrand's own variables.
-std::string in_variables(const mc::NotFinite& e, const IntegrandSets& sets) {
-  for (const IntegrandSet& set : sets)
-    for (const UnitCubeIntegral& x : set.integrands) {
-      const double value = x.describe_point ? x.f(e.u) : 0;
-      if (std::isfinite(value)) continue;
-      const std::string message = mc::NotFinite(e.bad, e.points, e.u, x.describe_point(e.u)).what();
-      if (!set.expression || !std::isnan(value)) return message;
-      return message + (set.expression->has_finite_bounds()
-                            ? "; it is nan there (see --nan)"
-                            : "; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound the domain");
-    }
-  return e.what();
 }
 
 // Refuses names that are no variable names, stand twice, or are fewer or more than the integrands.
@@ -263,6 +169,7 @@ std::vector<std::string> given_names(const IntegrateCommandOptions& o) {
 IntegrandSet integrand_set(const IntegrateCommandOptions& o, const ExpressionContext& context) {
   const bool has_foreign_code = o.foreign.is_given() || !o.importance.plugin.empty() || !o.importance.command.empty();
   const ResourceLimits limits = resource_limits(o.foreign.timeout, o.foreign.memory, has_foreign_code);
+  require_importance_options(o.importance);
   IntegrandSet set;
   if (o.foreign.is_given()) {
     JointIntegrand all = foreign_integrand(o.foreign, o.integrands, context);
@@ -271,16 +178,12 @@ IntegrandSet integrand_set(const IntegrateCommandOptions& o, const ExpressionCon
   } else {
     set = find_integrands(o.integrands, context);
   }
-  require_importance_options(o.importance);
   if (!o.importance.is_given()) return set;
   mc::require(o.histogram.empty() && o.quantiles.empty(),
               "integrate: --histogram and --quantiles need uniform points; leave out {}",
               o.importance.peaks.empty() ? "the importance density" : "--peak");
-  const JointIntegrand plain{set.integrands, [set](UnitCubeIntegral::UnitPoint points, std::span<double> values) {
-                               evaluate(set, points, values);
-                             }};
-  JointIntegrand all = with_importance(plain, o.importance, limits);
-  return {std::move(all.outputs), set.texts, set.expression, std::move(all.f)};
+  JointIntegrand all = with_importance({set.integrands, set.f}, o.importance, limits);
+  return {std::move(all.outputs), set.texts, set.expression, std::move(all.f), true};
 }
 
 // Fills the points, integrands and names of `found`. Returns the integrands of each point.
@@ -399,7 +302,7 @@ int run_integrate(const IntegrateCommandOptions& o) {
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   try {
-    found.results = results_by_modulus(sets, histogram, settings);
+    found.results = integrate_sets(sets, histogram, settings);
   } catch (const mc::NotFinite& e) {
     throw mc::Error(in_variables(e, sets));
   } catch (const mc::Error&) {

@@ -297,7 +297,7 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
   const std::filesystem::path folder = result_folder(folders.data, "trade.json", m.interrupted);
   results.write((folder / "trade.csv").string(), false, csv(all_points(m), m.cost));
   results.write((folder / "front.csv").string(), false, csv(a.pareto_front, m.cost));
-  results.write((folder / "trade.json").string(), false, ordered_json_text(to_json(o, one)));
+  results.write((folder / "trade.json").string(), false, json_text(to_json(o, one)));
   results.write((folder / "trade.gp").string(), false, script(one.target->integral.title, m, a));
   results.attempt([&] {
     if (!anything) remove_plot(folder, "trade");

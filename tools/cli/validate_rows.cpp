@@ -67,8 +67,7 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
            {"--unnormalized", "", &o.unnormalized, "The density is known up to a factor only."},
            {"--dependent", "", &o.dependent,
             "Accept rows that depend on each other, such as a point set. Default: the order of the rows and the "
-            "evenness "
-            "of the counts are tested, too."},
+            "evenness of the counts are tested, too."},
        }},
       {expert_options,
        {

@@ -40,11 +40,9 @@ double BoxMap::unmap(std::span<const double> x, std::span<double> u) const {
 }
 
 std::string BoxMap::describe(std::span<const double> u) const {
-  constexpr std::size_t most = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(dim(), most); ++i)
-    text += fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", bounds_[i].name, map_to_bounds(bounds_[i], u[i]).x);
-  return dim() > most ? text + fmt::format(", ... ({} variables)", dim()) : text;
+  return first_variables(dim(), [&](std::size_t i) {
+    return fmt::format("{} = {:.9g}", bounds_[i].name, map_to_bounds(bounds_[i], u[i]).x);
+  });
 }
 
 std::vector<VariableBounds> unit_cube_bounds(int dim) {

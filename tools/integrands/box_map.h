@@ -18,6 +18,8 @@ class BoxMap {
 
   const std::vector<VariableBounds>& bounds() const { return bounds_; }
   std::size_t dim() const { return bounds_.size(); }
+  /// Product of the finite sides.
+  double volume() const { return volume_; }
 
   /// Sets x to the image of u, and returns the determinant of dx/du.
   double map(std::span<const double> u, std::span<double> x) const;
@@ -31,7 +33,7 @@ class BoxMap {
   double slope(std::span<const double> u) const;
 
   std::vector<VariableBounds> bounds_;
-  double volume_; ///< product of the finite sides
+  double volume_;
 };
 
 /// The unit cube with variables u0, u1, ...

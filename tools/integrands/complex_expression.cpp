@@ -43,8 +43,6 @@ constexpr ComplexFunction functions[] = {
     {"im", [](Value z) { return Value(z.imag()); }, true},
 };
 
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
 } // namespace
 
 bool uses_imaginary_unit(std::string_view expression) {
@@ -173,7 +171,7 @@ struct ComplexExpression::Parser {
                fmt::join(names, ", "));
       at = close + 1;
       part.node = add({Kind::function, node_of(part), 0, found->f});
-      part.is_real_valued = found->is_real_valued;
+      part.is_real_valued = part.is_real_valued || found->is_real_valued;
     }
     return {begin, at, part.node, part.is_real_valued};
   }

@@ -21,7 +21,8 @@ class ComplexExpression {
   ///   throws : mc::Error for an expression that does not parse, with the position.
   ComplexExpression(const std::string& text, ExpressionProgram& program);
 
-  /// Whether the value is real wherever it is defined, as that of abs(exp(i*x))^2.
+  /// Whether the value is real wherever it is defined, as that of abs(exp(i*x))^2. A function of real values counts:
+  /// where it is complex, as the square root of a negative value, it is undefined as in real expressions.
   bool is_real_valued() const { return is_real_valued_; }
   std::complex<double> evaluate(const ExpressionProgram::Frame& frame) const { return evaluate(frame, root_); }
 

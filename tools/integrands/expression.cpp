@@ -60,8 +60,6 @@ constexpr Habit habits[] = {
     {"pow", "a power is x^2, not pow(x, 2)"},
 };
 
-bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
-
 // The correct notation for the text at which the parser failed; empty if unknown.
 std::string_view remedy(std::string_view expression, std::size_t at, const std::vector<std::string>& names) {
   const std::size_t last = at > 0 ? expression.find_last_not_of(" \t", at - 1) : expression.npos;
@@ -277,7 +275,6 @@ struct ExpressionProgram::State {
       const auto end = source.names.begin() + static_cast<std::ptrdiff_t>(e.names);
       parsers.push_back(make_parser(e.text, {source.names.begin(), end}, values.data()));
     }
-    values = source.initial; // the pointers stay valid
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Expressions of the command line.
 
+#include <cctype>
 #include <functional>
 #include <memory>
 #include <span>
@@ -23,6 +24,9 @@ void require_variable_name(std::string_view name);
 ///   throws : mc::Error for an expression that does not parse, with the position and, if possible, the correct form.
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables);
+
+/// Whether a character can be part of a name.
+inline bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 /// The value of a number or a constant expression. Throws mc::Error as parse_function.
 double parse_number(const std::string& text);

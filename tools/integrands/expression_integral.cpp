@@ -47,7 +47,8 @@ struct ExpressionIntegral::Builder {
         return add_constant(p.name, parse_function(p.text, constants)(constant_values));
       const std::size_t expression = integral.program_.add_expression(p.text);
       const StepKind kind = p.name.empty() ? StepKind::condition : StepKind::let;
-      integral.steps_.push_back({kind, p.name.empty() ? 0 : add_name(p.name), expression, {}, {}, 0, 0, false});
+      const std::size_t value = p.name.empty() ? 0 : add_name(p.name), before = integral.variables_.size();
+      integral.steps_.push_back({kind, value, expression, {}, {}, 0, before, false});
     });
   }
   // Adds what was pending and now has all of its values.
@@ -177,10 +178,9 @@ double ExpressionIntegral::part_of(std::complex<double> z, const Output& output)
 }
 
 std::string ExpressionIntegral::describe(const Frame& frame, std::size_t variables) const {
-  std::string text;
-  for (std::size_t i = 0; i < variables; ++i)
-    text += fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", variables_[i].name, frame[variable_values_[i]]);
-  return text;
+  return first_variables(variables, [&](std::size_t i) {
+    return fmt::format("{} = {:.9g}", variables_[i].name, frame[variable_values_[i]]);
+  });
 }
 
 void ExpressionIntegral::refuse(const Step& step, const Frame& frame, std::string_view complaint,
@@ -195,7 +195,12 @@ double ExpressionIntegral::take(const Step& step, std::span<const double> u, con
     frame[step.value] = frame.evaluate(step.expression);
     return 1;
   }
-  if (step.kind == StepKind::condition) return frame.evaluate(step.expression) != 0;
+  if (step.kind == StepKind::condition) {
+    const double holds = frame.evaluate(step.expression);
+    mc::require(!std::isnan(holds), "--where: a condition is not a number at {}; it must be true or false there",
+                describe(frame, step.variable));
+    return holds != 0;
+  }
   const double a = step.first.in(frame), b = step.second.in(frame), v = u[step.coordinate];
   if (step.kind == StepKind::normal) {
     if (!(b > 0 && std::isfinite(a) && std::isfinite(b)))
@@ -208,7 +213,8 @@ double ExpressionIntegral::take(const Step& step, std::span<const double> u, con
     refuse(step, frame, fmt::format("has bounds {:.9g} and {:.9g}", a, b),
            "lo <= hi is needed; --where restricts the variables before");
   if (a == b && step.kind == StepKind::interval) return 0;
-  const MappedPoint at = step.kind == StepKind::interval ? map_to_bounds(a, b, v) : map_to_integers(a, b, v);
+  const MappedPoint at =
+      step.kind == StepKind::interval ? map_to_bounds(a, b, v) : map_to_integers(std::ceil(a), std::floor(b), v);
   frame[step.value] = at.x;
   if (std::isinf(at.x)) return 0;
   return at.slope;

@@ -116,7 +116,7 @@ class ExpressionIntegral {
     std::size_t expression; ///< of a let or a condition
     Parameter first, second;
     std::size_t coordinate; ///< of the cube
-    std::size_t variable;   ///< index in variables_
+    std::size_t variable;   ///< index in variables_; of a let or a condition the number of those before it
     bool is_box_side;       ///< an interval with constant finite bounds
     bool is_constant() const { return first.is_constant() && second.is_constant(); }
   };

@@ -1,5 +1,7 @@
+#include <integrands/box_map.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
+#include <integrands/joint_integrand.h>
 #include <integrands/rate_integrals.h>
 
 #include <mc/core/error.h>
@@ -57,38 +59,27 @@ IntegrandSet find_integrands(const std::vector<std::string>& texts, const Expres
     set.expression = std::make_shared<ExpressionIntegral>(context, texts);
     set.integrands = integrands_of(set.expression, texts, context.domain);
     for (const ExpressionIntegral::Output& o : set.expression->outputs()) set.texts.push_back(o.text);
+    set.f = [expression = set.expression, outputs = set.integrands.size(),
+             dim = static_cast<std::size_t>(set.dim())](UnitCubeIntegral::UnitPoint points, std::span<double> values) {
+      for (std::size_t i = 0; i < values.size() / outputs; ++i)
+        expression->evaluate(points.subspan(i * dim, dim), values.subspan(i * outputs, outputs));
+    };
     return set;
   }
   for (const std::string& text : texts) {
     set.texts.push_back(set.integrands.size());
     set.integrands.push_back(find_integrand(text, context));
-    mc::require(set.integrands.back().dim == set.dim(),
-                "integrate: '{}' has {} dimensions, '{}' {}; they must be the same", text, set.integrands.back().dim,
-                set.integrands.front().name, set.dim());
   }
+  set.f = joined(set.integrands).f;
   return set;
-}
-
-void evaluate(const IntegrandSet& set, UnitCubeIntegral::UnitPoint points, std::span<double> values) {
-  if (set.f) return set.f(points, values);
-  const std::size_t outputs = set.integrands.size(), dim = static_cast<std::size_t>(set.dim());
-  for (std::size_t i = 0; i < values.size() / outputs; ++i) {
-    const UnitCubeIntegral::UnitPoint u = points.subspan(i * dim, dim);
-    const std::span<double> at = values.subspan(i * outputs, outputs);
-    if (set.expression) set.expression->evaluate(u, at);
-    else
-      for (std::size_t k = 0; k < outputs; ++k) at[k] = set.integrands[k].f(u);
-  }
 }
 
 double measure_of(const IntegrandSet& set, std::string_view option) {
   if (set.expression) return set.expression->uniform_measure(option);
-  double volume = 1;
-  for (const VariableBounds& s : set.integrands.front().bounds) {
+  const std::vector<VariableBounds>& bounds = set.integrands.front().bounds;
+  for (const VariableBounds& s : bounds)
     mc::require(s.is_finite(), "{}: the domain is infinite along {}; values need a finite volume", option, s.name);
-    volume *= s.hi - s.lo;
-  }
-  return volume;
+  return BoxMap(bounds).volume();
 }
 
 } // namespace carlo

@@ -19,17 +19,15 @@ struct IntegrandSet {
   std::vector<UnitCubeIntegral> integrands;
   std::vector<std::size_t> texts;                      ///< the text of each integrand
   std::shared_ptr<ExpressionIntegral> expression = {}; ///< null if they are no expressions
-  /// Evaluates all integrands at several points, see JointIntegrand; empty: as their expressions, or one by one.
+  /// Evaluates all integrands at several points, see JointIntegrand.
   std::function<void(UnitCubeIntegral::UnitPoint points, std::span<double> values)> f = {};
+  bool has_importance_density = false; ///< the points are not uniform
 
   int dim() const { return integrands.front().dim; }
   /// Whether integrands k and k + 1 are the parts of a complex expression.
   bool is_complex(std::size_t k) const { return k + 1 < texts.size() && texts[k] == texts[k + 1]; }
-  bool is_exact_sum() const { return expression && expression->is_exact_sum() && !f; }
+  bool is_exact_sum() const { return expression && expression->is_exact_sum() && !has_importance_density; }
 };
-
-/// Sets the values of all integrands at each of the points.
-void evaluate(const IntegrandSet& set, UnitCubeIntegral::UnitPoint points, std::span<double> values);
 
 /// All expressions over the domain of the context; without one the integrands with these names.
 ///   throws : Error as find_integrand, and for names with different dimensions.

@@ -18,17 +18,14 @@ constexpr double uniform_share = 0.5;
 
 double constant(std::string_view text) {
   const std::string word(mc::trimmed(text));
-  if (const auto number = mc::parse_double(word); number && std::isfinite(*number)) return *number;
-  const double value = parse_function(word, {})({});
+  const double value = parse_number(word);
   mc::require(std::isfinite(value), "'{}' is {}; a finite number is needed", word, value);
   return value;
 }
 
-std::string names_of(const std::vector<VariableBounds>& bounds) {
-  constexpr std::size_t most = 8;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(bounds.size(), most); ++i) text += (i > 0 ? ", " : "") + bounds[i].name;
-  return bounds.size() > most ? text + ", ..." : text;
+// The coordinate of x, inside of the cube.
+double inner_coordinate(const VariableBounds& bounds, double x) {
+  return std::clamp(unmap_from_bounds(bounds, x), 0x1p-60, 1 - 0x1p-53);
 }
 
 } // namespace
@@ -40,16 +37,16 @@ double PeakMixture::Axis::pdf(double x) const { return 1 / ((hi - lo) * width * 
 PeakMixture::Axis PeakMixture::axis(const std::string& name, double centre, double width) const {
   const auto found =
       std::find_if(bounds_.begin(), bounds_.end(), [&](const VariableBounds& s) { return s.name == name; });
-  mc::require(found != bounds_.end(), "there is no variable '{}'; the variables are {}", name, names_of(bounds_));
+  mc::require(found != bounds_.end(), "there is no variable '{}'; the variables are {}", name,
+              first_variables(bounds_.size(), [&](std::size_t i) { return bounds_[i].name; }));
   mc::require(found->lo < found->hi, "the bounds of {} are not constant; name the variables with constant bounds",
               name);
   mc::require(centre >= found->lo && centre <= found->hi, "{} = {:g} lies outside of its bounds {:g} and {:g}", name,
               centre, found->lo, found->hi);
   mc::require(width > 0, "the width {:g} of {} must be above 0", width, name);
   // The spacing of doubles limits x itself, and the coordinate of the unit cube that x is computed from.
-  const double u = std::clamp(unmap_from_bounds(*found, centre), 0.0, 1.0);
-  const double rest = std::min(1 - 0x1p-53, std::max(u, 0x1p-60));
-  const double least = 0x1p-48 * std::max(std::abs(centre), u * map_to_bounds(*found, rest).slope);
+  const double u = inner_coordinate(*found, centre);
+  const double least = 0x1p-48 * std::max(std::abs(centre), u * map_to_bounds(*found, u).slope);
   mc::require(width >= least,
               "the width {:g} of {} is below {:.2g}, which doubles resolve at {:g}; shift {} to 0 there", width, name,
               least, centre, name);
@@ -78,8 +75,7 @@ PeakMixture::Peak PeakMixture::parse(const std::string& text) const {
   double log_density = 0;
   for (const Axis& a : peak) {
     const VariableBounds& s = bounds_[a.variable];
-    const double u = std::clamp(unmap_from_bounds(s, a.centre), 0x1p-60, 1 - 0x1p-53);
-    log_density += std::log(a.pdf(a.centre)) + std::log(map_to_bounds(s, u).slope);
+    log_density += std::log(a.pdf(a.centre)) + std::log(map_to_bounds(s, inner_coordinate(s, a.centre)).slope);
   }
   mc::require(log_density < 600, "its density overflows: it is too narrow in too many variables");
   return peak;

@@ -1,6 +1,7 @@
 #pragma once
 /// Bounds of variables, parsed from an option.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -89,6 +90,14 @@ inline double unmap_from_bounds(const VariableBounds& s, double x) {
   if (std::isfinite(s.hi)) return 1 / (1 + (s.hi - x));
   const double h = std::hypot(1, 2 * x);
   return x < 0 ? (1 + 1 / (h - 2 * x)) / (2 * (1 + h)) : 0.5 + x / (1 + h);
+}
+
+/// The first eight of `count` variables as one(i) writes them, with commas, and how many there are if there are more.
+template <class F> std::string first_variables(std::size_t count, F&& one) {
+  constexpr std::size_t most = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(count, most); ++i) text += (i > 0 ? ", " : "") + one(i);
+  return count > most ? text + ", ... (" + std::to_string(count) + " variables)" : text;
 }
 
 } // namespace carlo

@@ -43,9 +43,9 @@ DerivedValue derived_value(const std::string& expression, const std::vector<std:
       variance += change[i] * change[k] * r.correlation(first + i, first + k);
   d.std_error = std::sqrt(std::max(variance, 0.0));
   d.is_linear = curvature <= d.std_error / 2;
-  if (!std::isfinite(d.std_error) || !std::isfinite(d.value)) { // at a pole
+  if (!std::isfinite(d.std_error) || !std::isfinite(d.value)) {
     d.std_error = infinity;
-    d.error_bar = mc::ErrorBar::undersampled;
+    d.has_pole = true;
     return d;
   }
   d.interval = {d.value - widest * d.std_error, d.value + widest * d.std_error};

@@ -144,8 +144,8 @@ Histogram of_expression(const std::shared_ptr<ExpressionIntegral>& integral, con
   const std::size_t observable =
       mc::with_context("--histogram", [&] { return integral->add_expression(r.observable); });
   std::vector<double> edges;
-  const bool has_range = r.range || !integral->value_at(r.observable, 0.5);
-  if (!has_range) edges = edges_in_cube(r.bins, [&](double u) { return *integral->value_at(r.observable, u); });
+  const bool has_outside = r.range || !integral->value_at(r.observable, 0.5);
+  if (!has_outside) edges = edges_in_cube(r.bins, [&](double u) { return *integral->value_at(r.observable, u); });
   else {
     const auto [lo, hi] = r.range ? *r.range : extremes(*integral, observable, r.observable, seed);
     edges = edges_between(lo, hi, r.bins);
@@ -160,7 +160,7 @@ Histogram of_expression(const std::shared_ptr<ExpressionIntegral>& integral, con
               if (bin + 1 < edges.size()) values[1 + bin] += part;
             });
           },
-          has_range};
+          has_outside};
 }
 
 } // namespace

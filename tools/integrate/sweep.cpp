@@ -110,7 +110,7 @@ std::string sweep_table(const IntegrateResults& found) {
     for (const Row& row : series.rows) {
       for (const auto& swept : *row.swept) text += fmt::format("{:>10.6g}  ", swept.second);
       const std::string interval = fmt::format("[{:.8g}, {:.8g}]", row.interval.lo, row.interval.hi);
-      text += row.error_bar == mc::ErrorBar::known
+      text += std::isfinite(row.std_error)
                   ? fmt::format("{:<14.8g} ± {:<8.2g}  {:<32}", row.value, row.std_error, interval)
                   : fmt::format("{:<14.8g} ± {:<8}  {:<32}", row.value, "?", name(row.error_bar));
       text += row.correlation ? fmt::format("  {:.3f}\n", *row.correlation) : "\n";

@@ -11,14 +11,14 @@ namespace carlo {
 
 namespace {
 
-WorkerOptions worker_of(const ForeignOptions& o) {
+WorkerOptions worker_of(const ForeignOptions& o, const char* reduce_option) {
   ResourceLimits limits = resource_limits(o.timeout, o.memory, true);
-  limits.reduce_option = "--max-n";
+  limits.reduce_option = reduce_option;
   return {.limits = limits};
 }
 
 CommandIntegrandOptions command_options(const ForeignOptions& o, const std::vector<std::string>& names,
-                                        const ExpressionContext& context) {
+                                        const ExpressionContext& context, const char* reduce_option) {
   const std::string& domain = context.domain;
   mc::require(!o.dim || (*o.dim >= 1 && *o.dim <= 1024), "--dim {} must lie in 1 to 1024", o.dim.value_or(0));
   mc::require(!o.dim || domain.empty(), "give --dim or --domain: --dim {} is the unit cube", o.dim.value_or(0));
@@ -27,7 +27,7 @@ CommandIntegrandOptions command_options(const ForeignOptions& o, const std::vect
   return {.command = o.command,
           .outputs = names,
           .bounds = o.dim ? unit_cube_bounds(*o.dim) : parse_bounds(domain),
-          .worker = worker_of(o)};
+          .worker = worker_of(o, reduce_option)};
 }
 
 void refuse_expression_options(ExpressionContext context) {
@@ -50,8 +50,7 @@ OptionGroup foreign_group(ForeignOptions& o) {
                       "FILE",
                       &o.plugin,
                       "Take the integrands of this shared object, compiled against <mc/check/plugin.h>. INTEGRAND "
-                      "chooses some "
-                      "by name.",
+                      "chooses some by name.",
                       false,
                       {{"--command", "the integrand comes from one of them"}}}),
           {"--command", "COMMAND", &o.command,
@@ -67,17 +66,17 @@ OptionGroup foreign_group(ForeignOptions& o) {
 JointIntegrand foreign_integrand(const ForeignOptions& o, const std::vector<std::string>& names,
                                  const ExpressionContext& context) {
   refuse_expression_options(context);
-  if (!o.command.empty()) return command_integrand(command_options(o, names, context));
+  if (!o.command.empty()) return command_integrand(command_options(o, names, context, "--max-calls"));
   refuse_bounds(o, context);
-  return plugin_integrand(o.plugin, names, worker_of(o));
+  return plugin_integrand(o.plugin, names, worker_of(o, "--max-calls"));
 }
 
 std::vector<IntegralTarget> foreign_targets(const ForeignOptions& o, const std::vector<std::string>& names,
                                             const ExpressionContext& context) {
   refuse_expression_options(context);
-  if (!o.command.empty()) return command_targets(command_options(o, names, context));
+  if (!o.command.empty()) return command_targets(command_options(o, names, context, "--max-n"));
   refuse_bounds(o, context);
-  return plugin_targets(o.plugin, names, worker_of(o));
+  return plugin_targets(o.plugin, names, worker_of(o, "--max-n"));
 }
 
 OptionGroup importance_group(ImportanceOptions& o) {

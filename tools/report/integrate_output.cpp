@@ -48,7 +48,7 @@ std::string correlation_table(const mc::VectorIntegral& r) {
 
 nlohmann::json as_json(const DerivedValue& d) {
   return {{"expression", d.expression}, {"value", d.value},    {"std_error", d.std_error},
-          {"lo", d.interval.lo},        {"hi", d.interval.hi}, {"error_bar", name(d.error_bar)},
+          {"lo", d.interval.lo},        {"hi", d.interval.hi}, {"error_bar", d.has_pole ? "pole" : name(d.error_bar)},
           {"linear", d.is_linear}};
 }
 
@@ -59,11 +59,14 @@ nlohmann::json as_json(const SweptValues& values) {
 }
 
 std::string derived_text(const DerivedValue& d) {
+  if (d.has_pole)
+    return fmt::format("{} = {:.10g}, error not known: it is not finite within the errors of the integrals\n",
+                       d.expression, d.value);
   if (d.error_bar != mc::ErrorBar::known)
     return fmt::format("{} = {:.10g}, error not known, as that of an integral in it\n", d.expression, d.value);
   return fmt::format("{} = {:.10g} ± {:.2g} (standard error, from the covariance), 95 % in [{:.10g}, {:.10g}]{}\n",
                      d.expression, d.value, d.std_error, d.interval.lo, d.interval.hi,
-                     d.is_linear ? "" : "; it bends within the errors of the integrals: lower --rel-error");
+                     d.is_linear ? "" : "; it is nonlinear within the errors of the integrals: lower --rel-error");
 }
 
 nlohmann::json as_json(const mc::Integral& r, const UnitCubeIntegral& e) {

@@ -23,9 +23,10 @@ struct HistogramBin {
 struct DerivedValue {
   std::string expression;
   double value;
-  double std_error; ///< infinite unless error_bar is known
+  double std_error; ///< infinite unless error_bar is known and the function has no pole
   mc::Estimate::Interval interval;
   mc::ErrorBar error_bar = mc::ErrorBar::known;
+  bool has_pole = false; ///< whether the function is not finite within the errors
   bool is_linear = true; ///< whether the function is nearly linear within the errors, as its error assumes
 };
 

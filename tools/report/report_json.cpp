@@ -82,12 +82,4 @@ mc::Report report_from_json(const nlohmann::json& json) {
   }
 }
 
-std::string json_text(const nlohmann::json& json) {
-  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-std::string ordered_json_text(const nlohmann::ordered_json& json) {
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-}
-
 } // namespace carlo

@@ -19,7 +19,8 @@ mc::Report report_from_json(const nlohmann::json& json);
 
 /// Returns text for a file, indented by one blank. Numbers that are not finite become null; bytes that are not UTF-8
 /// are replaced.
-std::string json_text(const nlohmann::json& json);
-std::string ordered_json_text(const nlohmann::ordered_json& json); ///< The same; keeps the order of the fields.
+template <class Json> std::string json_text(const Json& json) {
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 } // namespace carlo

@@ -42,7 +42,7 @@ std::string validation_json(const ValidationRun& run);
 /// report as failure.
 std::string validation_junit(const ValidationRun& run);
 
-/// Writes a page that needs no other file and no network. It contains the results and, for cases with evidence, maps of
+/// A page that needs no other file and no network. It contains the results and, for cases with evidence, maps of
 /// observed and expected counts, of residuals, and the p-value as a function of the number of samples. A map has at
 /// most 512 cells for a pass, else 4096.
 std::string validation_page(const ValidationRun& run);

@@ -51,7 +51,7 @@ TEST(ComplexExpression, AgreesWithComplexArithmetic) {
 TEST(ComplexExpression, RealValuesAreRecognised) {
   carlo::ExpressionProgram program;
   program.add_value("x");
-  for (const char* text : {"abs(exp(i*x))^2", "re(i*x) + x", "2*arg(i)", "-im(i)"})
+  for (const char* text : {"abs(exp(i*x))^2", "re(i*x) + x", "2*arg(i)", "-im(i)", "exp(-abs(i*x))", "sqrt(abs(x+i))"})
     EXPECT_TRUE(ComplexExpression(text, program).is_real_valued()) << text;
   for (const char* text : {"i*i", "x + i", "conj(i*x)", "abs(i) + i"})
     EXPECT_FALSE(ComplexExpression(text, program).is_real_valued()) << text;

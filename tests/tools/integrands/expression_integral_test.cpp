@@ -23,7 +23,7 @@ mc::Integral integral(const std::string& expression, const ExpressionContext& co
   return mc::integrate_unit(e.f, e.dim, o);
 }
 
-// The integral of the expression by Gauss-Legendre quadrature over x in [0,1] and y between two straight lines.
+// The integral of the expression by the midpoint rule over x in [0,1] and y between two straight lines.
 double over_lines(int power_x, int power_y, double a, double b, double c, double d) {
   double sum = 0;
   constexpr int n = 2000; // midpoints: the integrand is a polynomial of degree 8 at most
@@ -46,6 +46,13 @@ TEST(ExpressionIntegral, BoundsMayDependOnVariables) {
     // The bound fails for 1e-5 of the choices of seeds: Student's t of 23 degrees of freedom.
     EXPECT_NEAR(r.estimate.value, over_lines(p, q, a, b, c, d), 5.5 * r.estimate.std_error + 1e-6) << domain;
   }
+}
+
+TEST(ExpressionIntegral, ConditionThatIsNotANumber_IsRefusedWithItsPlace) {
+  const std::string message =
+      support::error_of([] { integral("x", {.domain = "x=0:1", .conditions = {"sqrt(x-2)"}}); });
+  EXPECT_THAT(message, testing::AllOf(testing::StartsWith("--where: a condition is not a number at x = 0."),
+                                      testing::EndsWith("; it must be true or false there")));
 }
 
 TEST(ExpressionIntegral, HasKnownValues) {
@@ -72,6 +79,8 @@ TEST(ExpressionIntegral, HasKnownValues) {
       {"x", {.domain = "k=1..4,x=0:k"}, (1 + 4 + 9 + 16) / 2.0},
       {"1/k^2", {.domain = "k=1..inf"}, pi * pi / 6},
       {"2^k", {.domain = "k=-inf..-1"}, 1},
+      {"(1+k-floor(k))*exp(-k)", {.domain = "x=0.2:0.8,k=x..inf"}, 0.6 / (std::exp(1.0) - 1)},
+      {"(1+k-floor(k))*exp(k)", {.domain = "x=0.2:0.8,k=-inf..x"}, 0.6 / (1 - std::exp(-1.0))},
       {"exp(-abs(k))", {.domain = "k=-inf..inf"}, 1 / std::tanh(0.5)},
       {"k", {.domain = "k=1..100000"}, 5000050000.0},
       {"x > (k-1)/10", {.domain = "x=0:1,k=1..ceil(10*x)"}, 5.5},

@@ -17,8 +17,7 @@ struct Parts {
   mc::VectorIntegral r;
 };
 Parts parts(const std::string& option, const std::string& expression, const carlo::ExpressionContext& context) {
-  const carlo::IntegrandSet set =
-      context.domain.empty() ? carlo::find_integrands({expression}, {}) : carlo::find_integrands({expression}, context);
+  const carlo::IntegrandSet set = carlo::find_integrands({expression}, context);
   const carlo::Histogram h = carlo::make_histogram(option, set, 1);
   return {h.bins, carlo::integrate(h, set.dim(), {.rel_error = 1e-4, .max_calls = 50'000})};
 }
