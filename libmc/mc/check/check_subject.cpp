@@ -1,6 +1,7 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
+#include <mc/check/fit/coarse_axes.h>
 #include <mc/check/fit/expected/mass.h>
 #include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/lattice.h>
@@ -317,20 +318,29 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
   }
 }
 
-// Coarse rounding is a warning. It explains every failed statistical test of the density: none of them is conclusive.
+// Coarse rounding is a warning. It explains failed statistical tests of the density, except along other axes: those
+// tests are not conclusive.
 void recognise_rounding(const Subject& s, const Pilot& pilot, std::vector<Check>& checks) {
-  const auto of_density = [](const Check& c) {
-    const bool density =
-        c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom || c.fault == Fault::rotation;
-    return c.verdict == Verdict::fail && c.p && density;
-  };
-  std::vector<Check> coarse = find_coarse(s, pilot);
+  const std::vector<CoarseAxis> coarse = find_coarse_axes(s, pilot);
   if (coarse.empty()) return;
-  const bool any = std::any_of(checks.begin(), checks.end(), of_density);
-  for (Check& c : coarse) c.verdict = any ? Verdict::inconclusive : Verdict::warning;
-  for (Check& c : checks)
-    if (of_density(c)) c.verdict = Verdict::inconclusive;
-  checks.insert(checks.begin(), coarse.begin(), coarse.end());
+  const auto is_of_another_axis = [&](const Check& c) {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+      if (c.name.ends_with(", " + axis_name(s.axes, d)))
+        return std::none_of(coarse.begin(), coarse.end(), [&](const CoarseAxis& a) { return a.axis == d; });
+    return false;
+  };
+  bool any = false;
+  for (Check& c : checks) {
+    const bool density = c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom;
+    if (c.verdict != Verdict::fail || !c.p || !density || is_of_another_axis(c)) continue;
+    c.verdict = Verdict::inconclusive;
+    any = true;
+  }
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    Check finding = coarse[i].finding;
+    finding.verdict = any ? Verdict::inconclusive : Verdict::warning;
+    checks.insert(checks.begin() + static_cast<std::ptrdiff_t>(i), std::move(finding));
+  }
 }
 
 } // namespace

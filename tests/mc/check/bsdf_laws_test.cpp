@@ -215,6 +215,22 @@ TEST(BsdfLaws, PhaseFunction_Passes) {
   EXPECT_EQ(mc::check_bsdf<double>(Phase{1.01}, V(0.6, 0, 0.8), options).fault(), Fault::weight);
 }
 
+// A symmetric lobe about wo that is nearly 0 at the horizon: its value is reciprocal as it is.
+struct NarrowPhase : Phase {
+  double eval(const V& wo, const V& wi) const { return std::exp(80 * (wo.dot(wi) - 1)); }
+};
+
+TEST(BsdfLaws, NarrowPhaseFunction_IsReciprocal) {
+  const mc::BsdfOptions options{.samples = 20'000, .cosine = false};
+  const mc::Report r = mc::check_bsdf<double>(NarrowPhase{}, V(0.6, 0, 0.8), options);
+  for (const mc::Check& c : r.checks)
+    if (c.name == "reciprocity") {
+      EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.detail;
+    }
+  EXPECT_TRUE(
+      std::any_of(r.checks.begin(), r.checks.end(), [](const mc::Check& c) { return c.name == "reciprocity"; }));
+}
+
 // An eval that includes the cosine, with and without a nonreciprocal factor. The product of both cosines is symmetric,
 // but is no reciprocal f.
 struct WithCosine {

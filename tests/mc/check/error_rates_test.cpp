@@ -46,7 +46,9 @@ TEST(CheckerErrorRates, RoundedDistributions_AreNotRejected) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     const mc::Report r = check_subject(checker_bench::random_rounded(seed),
                                        {.samples = 50'000, .seed = seed, .alpha = 1e-4, .open_interval = true});
-    EXPECT_NE(r.verdict(), Verdict::fail) << seed << ": " << r.to_string();
+    const bool is_coarse = std::any_of(r.checks.begin(), r.checks.end(),
+                                       [](const mc::Check& c) { return c.fault == mc::Fault::rounding; });
+    EXPECT_TRUE(r.passed() || (is_coarse && r.verdict() == Verdict::inconclusive)) << seed << ": " << r.to_string();
   }
 }
 

@@ -62,7 +62,10 @@ std::optional<double> rounded_from(const Subject& s, const Subject::Draw& d, con
 
 DrawStats::Violation& density_violation(const Subject& s, const Subject::Draw& d, bool is_rounded, DrawStats& stats) {
   if (d.at_pole) return stats.boundary_non_finite_pdf;
-  if (is_rounded) return std::isfinite(s.density(d.v)) ? stats.boundary_zero_pdf : stats.boundary_non_finite_pdf;
+  if (is_rounded) { // NaN and negative values are no result of rounding
+    const double there = s.density(d.v);
+    if (there >= 0) return std::isfinite(there) ? stats.boundary_zero_pdf : stats.boundary_non_finite_pdf;
+  }
   if (!std::isfinite(d.density)) return stats.non_finite_pdf;
   return d.kind == Kind::point && d.density < 0 && s.density(d.v) < 0 ? stats.negative_pdf : stats.zero_pdf;
 }

@@ -6,23 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace mc {
-namespace {
-
-// Returns "cos theta has steps of 3e-7: compute 1 - cos theta, or ...".
-std::string describe_step(const std::vector<Axis>& axes, std::size_t axis, double at, double step) {
-  if (axis < axes.size() && axes[axis].scale == Axis::Scale::polar)
-    return fmt::format("cos {} has steps of {:.2g}: compute 1 - cos {} without cancellation, or use a wider scalar",
-                       axes[axis].name, axes[axis].b * step, axes[axis].name);
-  const auto value = [&](double v) { return axis < axes.size() ? axes[axis].value(v) : v; };
-  return fmt::format("{} has steps of {:.2g}: use a wider scalar, or a domain nearer to 0", axis_name(axes, axis),
-                     std::abs(value(std::min(at + step, 1.0)) - value(at)));
-}
-
-} // namespace
-
 double Pilot::rank(std::size_t axis, double v) const {
   const std::vector<double>& s = sorted[axis];
   const auto below = std::lower_bound(s.begin(), s.end(), v) - s.begin();
@@ -68,48 +53,6 @@ std::vector<Check> find_unresolved(const Subject& s, const Pilot& pilot) {
     c.detail = fmt::format("{} has too few distinct values to test a density along it; compute it in double, or on a "
                            "domain nearer to 0",
                            describe_range(s.axes, d, 0, 1));
-    checks.push_back(std::move(c));
-  }
-  return checks;
-}
-
-namespace {
-
-// Returns the ends of the shortest interval of an axis that contains a quarter of the sorted coordinates.
-std::pair<double, double> densest_quarter(const std::vector<double>& sorted) {
-  const std::size_t quarter = sorted.size() / 4;
-  std::pair<double, double> best{sorted.front(), sorted.back()};
-  for (std::size_t i = 0; i + quarter < sorted.size(); ++i)
-    if (sorted[i + quarter] - sorted[i] < best.second - best.first) best = {sorted[i], sorted[i + quarter]};
-  return best;
-}
-
-} // namespace
-
-std::vector<Check> find_coarse(const Subject& s, const Pilot& pilot) {
-  std::vector<Check> checks;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim) && !pilot.points.empty(); ++d) {
-    const auto [lo, hi] = densest_quarter(pilot.sorted[d]);
-    double step = 0;
-    for (const std::uint32_t i : pilot.nearest(d, 0.5 * (lo + hi), 16))
-      step = std::max(step, rounding_step(s, pilot.points[i], d));
-    // A quarter of equal samples is an atom, unless the other samples nearby lie on the lattice, too.
-    const std::vector<double>& sorted = pilot.sorted[d];
-    const auto above = std::upper_bound(sorted.begin(), sorted.end(), hi);
-    const bool is_atom = lo == hi && (above == sorted.end() || *above - hi > 4 * step);
-    const double steps = (hi - lo) / step;
-    if (is_atom || !(steps < min_resolved_steps)) continue;
-    Check c{"resolution, " + axis_name(s.axes, d),
-            Verdict::inconclusive,
-            {},
-            0,
-            steps,
-            min_resolved_steps,
-            Fault::rounding,
-            {}};
-    c.detail = fmt::format("{}; a quarter of the samples lie in {}, {:.2g} steps wide, where the density cannot be "
-                           "tested",
-                           describe_step(s.axes, d, hi, step), describe_range(s.axes, d, lo, hi), steps);
     checks.push_back(std::move(c));
   }
   return checks;

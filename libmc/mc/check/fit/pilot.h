@@ -37,10 +37,6 @@ Pilot draw_pilot(const Subject& subject, std::uint64_t seed, std::uint64_t sampl
 /// coarse samples allow no test of a density along the axis.
 std::vector<Check> find_unresolved(const Subject& subject, const Pilot& pilot);
 
-/// Returns a Check for each axis along which the densest quarter of the pilot is narrower
-/// than min_resolved_steps rounding steps. A failed test of such a subject shows the rounding, not a wrong density.
-std::vector<Check> find_coarse(const Subject& subject, const Pilot& pilot);
-
 /// Returns the size of the pilot: an eighth of the counted samples, at least 1000 and at most 2^20, which is 256 for
 /// each of 4096 cells.
 std::uint64_t pilot_samples(std::uint64_t samples);

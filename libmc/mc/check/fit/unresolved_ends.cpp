@@ -16,15 +16,14 @@ namespace {
 
 using Coordinates = Subject::Coordinates;
 
-// No layer is wider.
-double widest_layer(const Subject& s) { return std::max(0x1p-10, 4096 * s.epsilon); }
+constexpr double widest_layer = 0x1p-10;
 
 double from_end(double v) { return std::min(v, 1 - v); }
 
 // Whether a coordinate is so near an end that it may lie in a layer; true for few points.
-bool is_near_end(const Coordinates& v, std::size_t dim, double widest) {
+bool is_near_end(const Coordinates& v, std::size_t dim) {
   for (std::size_t d = 0; d < dim; ++d)
-    if (!(from_end(v[d]) > widest)) return true;
+    if (!(from_end(v[d]) > widest_layer)) return true;
   return false;
 }
 
@@ -37,9 +36,9 @@ Coordinates at_distance(Coordinates v, std::size_t axis, double distance) {
 // two between 16 and 32 rounding steps, so that a border of cells, which is min_resolved_steps away, lies outside.
 std::optional<double> layer_around(const Subject& s, const Coordinates& v, std::size_t axis) {
   const double distance = from_end(v[axis]);
-  const double step = rounding_step(s, at_distance(v, axis, widest_layer(s)), axis);
+  const double step = rounding_step(s, at_distance(v, axis, widest_layer), axis);
   const double width = std::exp2(std::ceil(std::log2(16 * step)));
-  if (!(distance < width && width < widest_layer(s))) return {};
+  if (!(distance < width && width < widest_layer)) return {};
   // Charts of infinite domains have no point on some faces. Where the steps shrink with the distance, there is no
   // layer.
   const Coordinates inside = v[axis] > 0.5 ? at_distance(v, axis, std::max(distance, 0x1p-53)) : v;
@@ -53,7 +52,7 @@ std::optional<double> layer_around(const Subject& s, const Coordinates& v, std::
 // v, or if the density follows no power law there.
 std::optional<double> average(const Subject& s, const Coordinates& v, std::size_t axis) {
   if (axis == static_cast<std::size_t>(s.dim)) return {};
-  if (!(from_end(v[axis]) <= widest_layer(s))) return average(s, v, axis + 1);
+  if (!(from_end(v[axis]) <= widest_layer)) return average(s, v, axis + 1);
   const std::optional<double> width = layer_around(s, v, axis);
   if (!width) return average(s, v, axis + 1);
   const auto density = [&](double distance) {
@@ -72,9 +71,8 @@ std::optional<double> average(const Subject& s, const Coordinates& v, std::size_
 }
 
 void average_all(const Subject& s, std::span<const Coordinates> v, std::span<double> densities) {
-  const double widest = widest_layer(s);
   for (std::size_t i = 0; i < v.size(); ++i)
-    if (is_near_end(v[i], static_cast<std::size_t>(s.dim), widest))
+    if (is_near_end(v[i], static_cast<std::size_t>(s.dim)))
       if (const auto averaged = average(s, v[i], 0)) densities[i] = *averaged;
 }
 
@@ -94,6 +92,9 @@ void turn_at_pole(const Subject& s, std::uint64_t seed, Subject::Draw& d) {
 // Rounding of the point changes the density too much to compare a stated weight with it.
 void average_draw(const Subject& s, Subject::Draw& d) {
   if (d.kind != Subject::Draw::Kind::point) return;
+  // At a pole rounding leads to infinity, or to no number beyond the edge. A pdf of 0 is the fault of the distribution.
+  const double stated = d.density < 0 ? s.density(d.v) : d.density;
+  if (stated <= 0) return;
   const auto averaged = average(s, d.v, 0);
   if (!averaged) return;
   d.density = *averaged;
@@ -120,9 +121,8 @@ Subject average_unresolved_ends(const Subject& given) {
   s.draw = [original](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
     const std::size_t first = out.size();
     original->draw(stream, n, out);
-    const double widest = widest_layer(*original);
     for (std::size_t i = first; i < out.size(); ++i) {
-      if (!is_near_end(out[i].v, static_cast<std::size_t>(original->dim), widest)) continue;
+      if (!is_near_end(out[i].v, static_cast<std::size_t>(original->dim))) continue;
       turn_at_pole(*original, hash(stream, i - first), out[i]);
       average_draw(*original, out[i]);
     }

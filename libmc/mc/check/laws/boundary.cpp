@@ -4,6 +4,8 @@
 #include <mc/check/laws/find_breaks.h>
 #include <mc/check/laws/law.h>
 
+#include <limits>
+
 namespace mc {
 namespace {
 
@@ -38,8 +40,9 @@ class Probe {
         (!fault.empty() && p.draw.kind == Kind::point &&
          (adjacent_density(subject_, p.draw.v) || (p.pdf == 0 && (subject_.density(p.draw.v) > 0 || is_single(u)))));
     if (single && accepted_) return;
-    // A point of the domain whose density alone is wrong does no harm.
-    WorstError& of_single = p.draw.kind == Kind::point ? density_ : zero_;
+    // A point of the domain where the pdf is a zero or a pole does no harm; NaN or a negative pdf is never right.
+    const bool is_limit = p.pdf == 0 || p.pdf == std::numeric_limits<double>::infinity();
+    WorstError& of_single = p.draw.kind == Kind::point && is_limit ? density_ : zero_;
     (single ? of_single : inner_).note(fault.empty() ? 0 : 1, [&] {
       return fmt::format("{}, at {}", fault, describe_sample(distribution_, u));
     });

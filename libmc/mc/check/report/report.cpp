@@ -198,8 +198,10 @@ std::string Report::untried_text() const {
 
 std::string Report::verdict_text() const {
   std::string text(name(verdict()));
-  if (const Check* w = warning(); w && passed())
-    text += w->fault == Fault::rounding ? " (coarse rounding)" : " (boundary of measure zero)";
+  if (const Check* w = warning(); w && passed()) {
+    if (w->fault == Fault::rounding) text += " (coarse rounding)";
+    if (w->fault == Fault::measure_zero) text += " (boundary of measure zero)";
+  }
   if (is_statistical()) text += fmt::format(", {} ({} samples, alpha {:.3g})", p_text(p()), samples, alpha);
   if (!passed()) return text + ": " + finding();
   if (!(detectable > 0)) return text;

@@ -80,6 +80,23 @@ TEST(UnresolvedEnds, BetaAndDirichletWithPoles_PassAndWrongOnesFail) {
   }
 }
 
+// A density that is 0 at the pole itself gives its many samples an infinite weight.
+TEST(UnresolvedEnds, ZeroPdfOnAPole_Fails) {
+  mc::Subject s = beta_subject(0.2, 0.1, 0.2, 0.1);
+  const auto draw = s.draw;
+  s.draw = [draw](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
+    const std::size_t first = out.size();
+    draw(seed, n, out);
+    for (std::size_t i = first; i < out.size(); ++i)
+      if (out[i].kind == mc::Subject::Draw::Kind::point && out[i].v[0] >= 1) {
+        out[i].density = 0;
+        out[i].pdf_positive = false;
+      }
+  };
+  const mc::Report r = check_subject(s, {.samples = 100'000, .open_interval = true});
+  EXPECT_EQ(r.fault(), Fault::zero_pdf) << r.to_string();
+}
+
 TEST(UnresolvedEnds, SamplesOnPoles_AreWarning) {
   const mc::Report r = check_subject(beta_subject(0.2, 0.2, 0.2, 0.2), {.samples = 100'000});
   ASSERT_TRUE(r.passed() && r.warning()) << r.to_string();

@@ -160,6 +160,16 @@ TEST(Law, Boundary_SampleFailsAtZeroU_IsMeasureZero) {
   EXPECT_TRUE(tried(true).passed()) << tried(true).to_string();
 }
 
+// NaN and a negative pdf are no limits of a density.
+TEST(Law, Boundary_PdfThatIsNoLimitAtZeroU_Fails) {
+  for (const double bad : {std::nan(""), -1.0}) {
+    const mc::Report r = mc::check_laws(
+        mc::Interval<double>(0, 1), [](double u) { return u; }, [=](double x) { return x == 0 ? bad : 1.0; },
+        {.samples = 20'000});
+    EXPECT_EQ(r.verdict(), mc::Verdict::fail) << bad << ": " << r.to_string();
+  }
+}
+
 TEST(Law, Boundary_ZeroPdfAtZeroU_IsWarning) {
   const auto interval = [](auto sample, auto pdf, bool open) {
     return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, {.samples = 20'000, .open_interval = open});

@@ -36,10 +36,10 @@ bool vanishes_at_horizon(const BsdfView& view) {
       const Channels f = view.bsdf.eval(view.wo, spherical_direction<double>(std::sqrt(1 - z * z), z, phi));
       return *std::max_element(f.value.begin(), f.value.begin() + f.count);
     };
-    const double side = view.wo.z() < 0 ? -1 : 1, above = at(0.1 * side);
+    const double side = view.wo.z() < 0 ? -1 : 1, above = at(1e-3 * side);
     if (!(above > 0)) continue;
     positive = true;
-    if (at(1e-5 * side) > 0.01 * above) return false;
+    if (at(1e-5 * side) > 0.02 * above) return false; // .01 for a cosine
   }
   return positive;
 }
