@@ -271,7 +271,13 @@ int run_validate(const ValidateCommandOptions& options) {
               "validate: book-slips is a subcommand of its own: carlo known-bugs [BUG...]");
   ValidateCommandOptions o = options;
   const Interrupt interrupt;
-  const UserInput user_input = read_user_input(o, interrupt.flag());
+  UserInput user_input;
+  try {
+    user_input = read_user_input(o, interrupt.flag());
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "interrupted before anything was checked\n");
+    return exit_interrupted;
+  }
   if (user_input.samples > 0) o.samples = user_input.samples;
   const std::vector<const Case*> cases =
       select(o, user_input.cases.empty() ? catalogue() : user_input.cases, !user_input.cases.empty());

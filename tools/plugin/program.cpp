@@ -100,11 +100,12 @@ double Program::cpu_seconds() {
     processes_ = descendants(getpid());
     next_look_ = now + std::clamp(now - start_, 0.01, 1.0);
   }
-  double sum = 0;
   for (const pid_t id : processes_) {
     clockid_t clock{};
-    if (clock_getcpuclockid(id, &clock) == 0) sum += clock_seconds(clock);
+    if (clock_getcpuclockid(id, &clock) == 0) seconds_[id] = std::max(seconds_[id], clock_seconds(clock));
   }
+  double sum = 0;
+  for (const auto& [id, seconds] : seconds_) sum += seconds;
   return sum;
 }
 

@@ -11,6 +11,7 @@
 #include <process/cpu_time.h>
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ class Program {
   void ask(const char* what, const char* argument, std::span<const double> rows, std::size_t width,
            std::span<double> answer);
 
-  /// CPU seconds so far of the program and of the running processes that it started.
+  /// CPU seconds so far of the program and of the processes that it started, as far as they ran long enough to be seen.
+  /// It never falls.
   double cpu_seconds();
 
  private:
@@ -42,6 +44,7 @@ class Program {
   ChildProcess child_;
   CallMonitor& monitor_;
   std::vector<pid_t> processes_;
+  std::map<pid_t, double> seconds_;               ///< of all processes seen so far
   double start_ = clock_seconds(CLOCK_MONOTONIC); ///< steady seconds at which the program was started
   double next_look_ = 0;                          ///< steady seconds at which processes_ is read again
 };

@@ -1,5 +1,6 @@
 // Results that an interrupt, a signal, a full disk or a wrong name must not destroy.
 
+#include <terminal/file_lock.h>
 #include <tools/interrupt_carlo.h>
 
 #include <render/io/image/image_io.h>
@@ -90,10 +91,19 @@ TEST_F(LostResults, SignalsOfBatchQueuesAndTerminals_WriteThePicture) {
     EXPECT_EQ(run.exit_code, 128 + signal) << run.output;
     EXPECT_TRUE(render::read_image(output).metadata.contains("carlo.partial"));
   }
-  const ProcessResult ignored =
-      support::run(std::string("trap '' HUP; timeout -s HUP 0.3 '" CARLO_PATH "' integrate pi --rel-error "
-                               "1e-30 --max-calls 1e8"));
-  EXPECT_THAT(ignored.output, HasSubstr("stopped: ")) << "as under nohup";
+  const std::string command = "trap '' HUP; '" CARLO_PATH "' integrate pi --rel-error 1e-30 --max-calls 1e8 & "
+                              "sleep 0.3; kill -HUP $!; wait $!";
+  const ProcessResult ignored = support::run(command);
+  EXPECT_EQ(ignored.exit_code, 1) << "as under nohup";
+  EXPECT_THAT(ignored.output, AllOf(HasSubstr("stopped: "), Not(HasSubstr("stopped: interrupted"))));
+}
+
+TEST_F(LostResults, CtrlCWhileAPluginLoads_EndsWith130) {
+  const std::string command =
+      "timeout --preserve-status -s INT 1 '" CARLO_PATH "' validate --plugin '" PLUGIN_DIR "/hang_on_load.so' 2>&1";
+  const ProcessResult run = support::run(command);
+  EXPECT_EQ(run.exit_code, 130) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("interrupted before anything was checked"));
 }
 
 TEST_F(LostResults, InterruptedIntegral_EndsWith130) {
@@ -127,7 +137,7 @@ TEST_F(LostResults, FolderThatVanishes_PictureIsSavedElsewhere) {
   const ProcessResult run =
       support::run("(cd '" + folder.string() +
                    "'; export TMPDIR=$PWD; '" CARLO_PATH
-                   "' render cbox --time 2 --size 32x32 -o out/a.exr & sleep 1; rm -r out; wait $!)");
+                   "' render cbox --time 6 --size 32x32 -o out/a.exr & sleep 3; rm -r out; wait $!)");
   EXPECT_EQ(run.exit_code, 2) << run.output;
   std::smatch place;
   ASSERT_TRUE(std::regex_search(run.output, place, std::regex("the result is in '(.*)'"))) << run.output;
@@ -150,12 +160,13 @@ TEST_F(LostResults, KilledRuns_LeaveAWholePicture) {
 }
 
 TEST_F(LostResults, SecondResumeOfAPicture_IsRefused) {
-  const std::string a = path("a.exr"), line = "'" CARLO_PATH "' render cbox --size 32x32 --resume -o " + a;
+  const std::string a = path("a.exr"), resume = "render cbox --spp 2 --size 32x32 --resume -o " + a;
   ASSERT_EQ(run_carlo("render cbox --spp 2 --size 32x32 -o " + a).exit_code, 0);
-  const ProcessResult both = support::run("(" + line + " --time 2 >/dev/null & sleep 0.7; " + line +
-                                          " --spp 2; echo code $?; wait $!; echo code $?)");
-  EXPECT_THAT(both.output, AllOf(HasSubstr("another run is working on '" + a + "'; wait for its end\ncode 2\n"),
-                                 testing::EndsWith("code 0\n")));
+  {
+    const carlo::FileLock first(a);
+    expect_refusal(resume, "another run is working on '" + a + "'; wait for its end");
+  }
+  EXPECT_EQ(run_carlo(resume).exit_code, 0);
 }
 
 TEST_F(LostResults, UnwritableOutput_IsRefusedBeforeTheWork) {

@@ -67,6 +67,9 @@ mc_sampler uniform() {
   s.domain = 9;
 #elif defined(FLAW_crash_on_load)
   std::abort();
+#elif defined(FLAW_hang_on_load)
+  for (volatile bool hangs = true; hangs;) {
+  }
 #elif defined(FLAW_no_name)
   s.name = "a b";
 #elif defined(FLAW_weight_alone)
