@@ -11,8 +11,8 @@
 namespace carlo {
 
 /// The value of an expression over the integrals first, first + 1, ... of r, by their names.
-///   error    : sqrt(g C g) for the covariance C of the integrals and the gradient g of the function, from differences over
-///              one standard error on each side.
+///   error    : sqrt(g C g) for the covariance C of the integrals and the gradient g of the function, from differences
+///              over one standard error on each side.
 ///   interval : the value with as many standard errors on each side as the longest interval of an integral in it has.
 ///   linear   : the curvature of the function changes its value by less than half a standard error.
 ///   throws   : Error that names --derive for an expression that does not parse.

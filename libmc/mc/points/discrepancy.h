@@ -25,8 +25,8 @@ double periodic_l2_discrepancy(PointList points);
 double wraparound_discrepancy(PointList points);
 /// Centered L2 discrepancy, as defined at wraparound_discrepancy().
 double centered_discrepancy(PointList points);
-/// Mixture L2 discrepancy: its kernel mixes those of the wrap-around and of the centered one. Returns the square root, as
-/// above.
+/// Mixture L2 discrepancy: its kernel mixes those of the wrap-around and of the centered one. Returns the square root,
+/// as above.
 ///   Source : [ZhouFangNing13].
 double mixture_discrepancy(PointList points);
 

@@ -72,7 +72,8 @@ TEST(ReportJson, DamagedJson_Throws) {
 }
 
 TEST(ReportJson, TextIsValidJson) {
-  EXPECT_EQ(carlo::json_text(nlohmann::json{{"a", "\xff"}, {"b", NAN}}), "{\n \"a\": \"\xef\xbf\xbd\",\n \"b\": null\n}\n");
+  EXPECT_EQ(carlo::json_text(nlohmann::json{{"a", "\xff"}, {"b", NAN}}),
+            "{\n \"a\": \"\xef\xbf\xbd\",\n \"b\": null\n}\n");
 }
 
 TEST(JunitTest, IsEscaped) {
