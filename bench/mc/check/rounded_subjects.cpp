@@ -15,7 +15,7 @@
 namespace checker_bench {
 namespace {
 
-using mc::pi, mc::sqr;
+using mc::pi;
 
 double normal(Pcg& q) { return std::sqrt(-2 * std::log1p(-uniform(q))) * std::cos(2 * pi<double> * uniform(q)); }
 
