@@ -39,7 +39,7 @@ struct IntegrateCommandOptions {
   std::vector<std::string> derived; ///< functions of the integrals
   bool list = false;
   double rel_error = 1e-3, abs_error = 0;
-  std::uint64_t max_calls = 10'000'000;
+  std::uint64_t max_calls = 10'000'000, min_calls = 10'000;
   std::string method = "auto";
   std::uint64_t seed = 1;
   int threads = 0;
@@ -64,6 +64,8 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
             "Absolute standard error that also suffices, in units of the integral."},
            {"--max-calls", "N", &o.max_calls,
             "Most evaluations of the integrand. The values of a sweep share them, but at least 16384 each."},
+           {"--min-calls", "N", &o.min_calls,
+            "Fewest evaluations before the run may stop. More of them find smaller features of the integrand."},
            {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
            {"--list", "", &o.list, "List the named integrands, and stop."},
            output_file(
@@ -247,6 +249,7 @@ mc::IntegrateOptions settings_of(const IntegrateCommandOptions& o) {
   settings.rel_error = o.rel_error;
   settings.abs_error = o.abs_error;
   settings.max_calls = o.max_calls;
+  settings.min_calls = o.min_calls;
   settings.method = mc::parse_method(o.method);
   settings.seed = o.seed;
   settings.threads = o.threads;

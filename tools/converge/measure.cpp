@@ -2,7 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
-#include <mc/estimate/diagnostics/tail_index_estimator.h>
+#include <mc/estimate/diagnostics/tail.h>
 #include <mc/random/hash.h>
 #include <mc/stats/t_test.h>
 
@@ -204,11 +204,14 @@ void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Me
   curve.fit_center = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
+constexpr double heavy_shape = 0.6; // of an infinite variance: 1/2 and the deviation of a shape fitted to 250 values
+
 // Properties of an integrand, estimated from independent points.
 struct IntegrandProbe {
-  double magnitude; // the mean of |f| over a few points; rounding is relative to it, since the integral itself may
-                    // cancel
-  mc::TailIndexEstimator tail; // tail index of f
+  double magnitude;  // the mean of |f| over a few points; rounding is relative to it, since the integral itself may
+                     // cancel
+  double tail_shape; // of the heavier tail of f, as all thresholds show it
+  double fit_shape;  // as most values show it
 };
 
 IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOptions& o) {
@@ -218,9 +221,10 @@ IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOption
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
     sizes.push_back(std::abs(x));
-  mc::OctaveHistogram all;
+  mc::Extremes all;
   all.add(r.values);
-  return {mean_of(sizes), mc::TailIndexEstimator(all)};
+  const mc::Tail low = mc::find_tail(all, mc::TailSide::smallest), high = mc::find_tail(all, mc::TailSide::largest);
+  return {mean_of(sizes), std::max(low.shape, high.shape), std::max(low.fit.shape, high.fit.shape)};
 }
 
 // The curve with the smallest conservative standard error at its largest N, among the methods that do not adapt. An
@@ -345,8 +349,8 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
   const auto start = Clock::now();
   const IntegrandProbe probe = probe_integrand(target, o);
   m.magnitude = probe.magnitude;
-  const double tail_index = probe.tail.index();
-  if (probe.tail.infinite_variance()) m.heavy_tail = tail_index;
+  const double tail_index = probe.fit_shape > 0 ? 1 / probe.fit_shape : HUGE_VAL;
+  if (probe.tail_shape > heavy_shape) m.heavy_tail = 1 / probe.tail_shape;
   if (m.magnitude == 0) refuse_underflow(target.integral);
   const bool known = std::isfinite(target.integral.truth);
   for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -66,7 +66,7 @@ struct Measurement {
   double magnitude = 0;                    ///< mean of |f|, or |truth| if that is larger; rounding is relative to it
   std::string truth_warning;        ///< one line with the reason why the truth is or may be wrong; empty: no doubt
   bool interrupted = false;         ///< only the N finished before the interrupt are included
-  std::optional<double> heavy_tail; ///< tail index, if mc::TailIndexEstimator finds an infinite variance
+  std::optional<double> heavy_tail; ///< tail index, if it is below 2: an infinite variance
   CostUnit cost = cpu_cost;         ///< the unit of `seconds`
   std::string plain_mc = "random";  ///< name of the method that is plain Monte Carlo
 };

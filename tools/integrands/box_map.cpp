@@ -47,6 +47,7 @@ std::string BoxMap::describe(std::span<const double> u) const {
 
 std::vector<VariableBounds> unit_cube_bounds(int dim) {
   std::vector<VariableBounds> bounds;
+  bounds.reserve(static_cast<std::size_t>(dim));
   for (int i = 0; i < dim; ++i) bounds.push_back({fmt::format("u{}", i), 0, 1});
   return bounds;
 }

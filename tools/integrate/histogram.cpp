@@ -128,7 +128,7 @@ Histogram of_variable(const UnitCubeIntegral& e, const Request& r) {
   mc::require(found != bounds.end(), "--histogram: there is no variable '{}'; use one of {} to {}, or value",
               r.observable, bounds.front().name, bounds.back().name);
   const auto axis = static_cast<std::size_t>(found - bounds.begin());
-  const VariableBounds side = *found;
+  const VariableBounds& side = *found;
   const std::vector<double> edges = r.range ? edges_between(r.range->first, r.range->second, r.bins)
                                             : edges_in_cube(r.bins, [&](double u) { return map_to_bounds(side, u).x; });
   return {named_bins(r.observable, edges),

@@ -15,9 +15,9 @@ namespace carlo {
 using IntegrandSets = std::vector<IntegrandSet>;
 
 /// All integrals, set by set, or the integral of the only integrand and then those of its histogram's bins. A finite
-/// sum is exact. The relative error of a complex integral is relative to its modulus, which a short run estimates first; a
-/// run that converged too early because the modulus was smaller is repeated. Leaves the absolute error that was used in
-/// `o`.
+/// sum is exact. The relative error of a complex integral is relative to its modulus, which a short run estimates
+/// first; a run that converged too early because the modulus was smaller is repeated. Leaves the absolute error that
+/// was used in `o`.
 ///   throws : Error as mc::integrate_unit, and for a finite sum with a term that is not finite.
 mc::VectorIntegral integrate_sets(const IntegrandSets& sets, const Histogram& histogram, mc::IntegrateOptions& o);
 

@@ -24,6 +24,7 @@ namespace {
 
 std::vector<double> default_parameters(const mc_sampler& s) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(s.parameter_count));
   for (int i = 0; i < s.parameter_count; ++i) values.push_back(s.parameters[i].value);
   return values;
 }

@@ -191,10 +191,12 @@ JointIntegrand plugin_integrand(const std::string& path, const std::vector<std::
                                 const WorkerOptions& worker) {
   const std::vector<json> chosen = described(path, names, worker);
   std::vector<std::string> known;
+  known.reserve(chosen.size());
   for (const json& one : chosen) known.push_back(one["name"]);
   mc::require(!names.empty() || chosen.size() == 1, "{}: it contains {} integrands; name one of {}", path,
               chosen.size(), fmt::join(known, ", "));
   std::vector<JointIntegrand> parts;
+  parts.reserve(chosen.size());
   for (const json& one : chosen) parts.push_back(session_integrand(path, one, worker));
   return joined(std::move(parts));
 }

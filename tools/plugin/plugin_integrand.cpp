@@ -50,6 +50,7 @@ class Functions {
 
 BoxMap box_of(const mc_integrand& f) {
   std::vector<VariableBounds> bounds;
+  bounds.reserve(static_cast<std::size_t>(f.dim));
   for (int i = 0; i < f.dim; ++i) bounds.push_back({fmt::format("x{}", i), f.lo ? f.lo[i] : 0, f.hi ? f.hi[i] : 1});
   return BoxMap(bounds);
 }

@@ -18,9 +18,12 @@ const char* remedy(mc::ErrorBar bar) {
   switch (bar) {
   case mc::ErrorBar::known: return "";
   case mc::ErrorBar::undersampled:
-  case mc::ErrorBar::all_zero: return "; raise --max-calls, or narrow --domain to the part that matters";
+  case mc::ErrorBar::all_zero:
+    return "; raise --max-calls, name the place with --peak, or narrow --domain to the part that matters";
+  case mc::ErrorBar::too_few_points: return "; raise --max-calls, or name the place of a peak with --peak";
   case mc::ErrorBar::infinite_variance:
     return ". Substitute a variable that removes the singularity; if there is none, raise --max-calls";
+  case mc::ErrorBar::not_integrable: return ". Split --domain at the singularity, or subtract the part that diverges";
   }
   return "";
 }
@@ -140,7 +143,8 @@ std::string histogram_table(const IntegrateResults& found) {
     width = std::max(width, b.name.size());
   }
   const mc::Estimate& whole = found.results.outputs.front().estimate;
-  const bool has_shares = std::abs(whole.value) > whole.std_error; // shares are meaningless if the whole may be 0
+  const mc::Estimate::Interval& interval = found.results.outputs.front().interval;
+  const bool has_shares = interval.lo > 0 || interval.hi < 0; // shares are meaningless if the whole may be 0
   std::string text;
   for (const HistogramBin& b : found.histogram) {
     const double value = b.integral.estimate.value;

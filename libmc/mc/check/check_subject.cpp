@@ -1,11 +1,11 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/coarse_axes.h>
 #include <mc/check/fit/expected/mass.h>
 #include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/lattice.h>
 #include <mc/check/fit/tests/axis_intervals.h>
+#include <mc/check/fit/tests/coarse_axes.h>
 #include <mc/check/fit/tests/density_ratio.h>
 #include <mc/check/fit/tests/marginal_bins.h>
 #include <mc/check/fit/tests/rotation.h>

@@ -1,26 +1,19 @@
 #include <mc/core/error.h>
-#include <mc/core/text.h>
 #include <mc/estimate/integrate.h>
 
-#include <array>
+#include <cmath>
 #include <ostream>
 
 namespace mc {
 
-namespace {
-constexpr std::array<std::string_view, 6> method_names = {"auto", "plain", "stratified", "rqmc", "vegas", "tree"};
-} // namespace
-
-std::string_view name(Method method) { return method_names[static_cast<std::size_t>(method)]; }
-
-Method parse_method(std::string_view word) { return static_cast<Method>(index_of("method", word, method_names)); }
-
 std::string_view name(ErrorBar bar) {
   switch (bar) {
   case ErrorBar::known: return "known";
-  case ErrorBar::all_zero: return "unseen";
-  case ErrorBar::undersampled: return "hardly_met";
+  case ErrorBar::all_zero: return "all_zero";
+  case ErrorBar::undersampled: return "undersampled";
+  case ErrorBar::too_few_points: return "too_few_points";
   case ErrorBar::infinite_variance: return "infinite_variance";
+  case ErrorBar::not_integrable: return "not_integrable";
   }
   return "";
 }
@@ -38,25 +31,32 @@ std::string Integral::to_string() const {
   case ErrorBar::known:
     text = fmt::format("{:.10g} ± {:.2g} (standard error), {:g} % in [{:.10g}, {:.10g}]", estimate.value,
                        estimate.std_error, 100 * confidence, interval.lo, interval.hi);
+    if (constant) text += fmt::format("; constant at all {} points", calls);
     break;
   case ErrorBar::all_zero:
-    text = fmt::format("0, error not known yet: the integrand was 0 at every point. What is not 0 fills at most {:.2g} "
-                       "of the volume (95 %)",
-                       3 / static_cast<double>(calls));
+    text = fmt::format("0, error not known: the integrand was 0 at all {} points. Other values fill at most {:.2g} of "
+                       "the volume (95 %)",
+                       calls, 3 / static_cast<double>(calls));
     break;
   case ErrorBar::undersampled:
-    text = fmt::format(
-        "{:.10g}, error not known yet: a few of {} points hold much of it, and larger values may be missing",
-        estimate.value, calls);
+    text =
+        fmt::format("{:.10g}, error not known: a few of {} points hold most of the integral. More calls are needed{}",
+                    estimate.value, calls, tail_index < 1.1 ? ", or the integral is infinite" : "");
+    break;
+  case ErrorBar::too_few_points:
+    text = fmt::format("{:.10g}, error not known: {} points are too few for so many dimensions. More calls are needed",
+                       estimate.value, calls);
     break;
   case ErrorBar::infinite_variance:
     text = fmt::format("{:.10g}, error not known: the variance ", estimate.value);
     if (infinite_points > 0)
       text += fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite_points);
-    else
-      text += fmt::format("looks infinite (the largest values fall off with index {:.2f}{}; a variance needs more than "
-                          "2, an integral more than 1)",
-                          tail_index, tail_index > 2 ? ", not told from 2" : "");
+    else text += fmt::format("looks infinite (tail index {:.2f}; a finite variance needs more than 2)", tail_index);
+    break;
+  case ErrorBar::not_integrable:
+    text = fmt::format("the integral does not seem to converge absolutely (tail index {:.2f}; an integral needs more "
+                       "than 1): it is infinite or conditionally convergent. {} points give {:.4g}",
+                       tail_index, calls, estimate.value);
     break;
   }
   if (!consistent)

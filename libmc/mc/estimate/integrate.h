@@ -44,10 +44,12 @@ std::string_view name(StopReason stop);
 
 /// Reliability of an error bar.
 enum class ErrorBar {
-  known,            ///< The standard error is valid.
-  all_zero,         ///< All sampled values were zero; the error is unknown.
-  undersampled,     ///< A few samples dominate the estimate; the error is unreliable.
-  infinite_variance ///< The tail of the integrand is so heavy that its variance is infinite.
+  known,             ///< The standard error is valid.
+  all_zero,          ///< All sampled values were zero; the error is unknown.
+  undersampled,      ///< A few samples dominate the estimate.
+  too_few_points,    ///< The tail is heavy, and there are fewer points than 2^dimension: it may be that of a peak.
+  infinite_variance, ///< The tail of the integrand is so heavy that its variance is infinite.
+  not_integrable     ///< The integral is infinite, or converges only conditionally.
 };
 /// Name of an error bar.
 std::string_view name(ErrorBar bar);
@@ -78,10 +80,13 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;              ///< Seed of all random numbers.
   int threads = 0;                     ///< Number of threads, 0 for all. The result has the same bits for any number.
   double confidence = 0.95;            ///< Confidence level of the interval.
-  /// Number of independent randomisations behind the error of stratified, rqmc, vegas and tree. A run that exhausts its
-  /// calls may end with more sequences, or with fewer and longer sequences, whichever gives less variance. It keeps at
-  /// least a third of this number and at least eight, unless fewer were requested.
-  std::uint32_t replicates = 24;
+  /// Least number of calls before a run may converge, so that few points do not hide a feature; at most max_calls.
+  std::uint64_t min_calls = 10'000;
+  /// Number of independent randomisations behind the error of all methods but plain. The last calls of a run may go
+  /// into fewer and longer sequences, at least eight, or into more of them.
+  std::uint32_t replicates = 16;
+  /// Approximate time of one call [ns]. A learned density costs time, which saves calls of a slow integrand.
+  double call_ns = 20;
   /// Initial density for vegas, tree and automatic: from an earlier run or from load_density(), for the same or a
   /// similar integrand. Short rounds of uniform points and of points from the density test it. If it fits, it replaces
   /// learning; otherwise learning continues from it. The estimate is unbiased for any density.
@@ -107,12 +112,13 @@ struct IntegrateRound {
 /// Integral with its error bar and the history of the run.
 struct Integral {
   Estimate estimate; ///< Estimate; std_error is infinite unless error_bar is known.
-  /// Two-sided confidence interval: Student t over the replicates, longer on the side of their skewness. For a learned
-  /// density it includes the possible contribution of values larger than all sampled values; see OctaveHistogram.
+  /// Two-sided confidence interval: Student t over the replicates, longer on the side of their skewness. It
+  /// includes the possible contribution of values larger than all sampled values.
   /// Contains all numbers unless error_bar is known.
   Estimate::Interval interval{};
   ErrorBar error_bar = ErrorBar::known; ///< Reliability of the error.
-  double tail_index = 0;                ///< Tail index of the integrand; infinite if bounded. See TailIndexEstimator.
+  bool constant = false;                ///< All values of the integrand were equal.
+  double tail_index = 0;                ///< Tail index of the values; infinite unless the tail is heavy.
   /// Number of points where the integrand was infinite. They count as 0, and the variance is infinite.
   std::uint64_t infinite_points = 0;
   std::uint64_t calls = 0;                 ///< Number of evaluations of the integrand.
@@ -167,22 +173,16 @@ struct BatchIntegrand {
 ///   stratified : Independent rounds of jittered points, doubling in size. Error from replicates.
 ///   rqmc       : Independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions.
 ///                Error from replicates.
-///   vegas      : rqmc through an ImportanceGrid that is learned first and then fixed, so the estimate is unbiased.
-///                Learning takes a 32nd of the calls, or up to a quarter of a small budget. It takes up to a fifth for
-///                widely spread values, and up to two fifths if rare large values may be missing. The last learning
-///                round is the consistency check. A ninth of the points is uniform, so that no weighted value exceeds 8
-///                times the integrand. The share rises to a half if most of the error comes from the uniform points.
-///                The known integral of the density serves as a control variate, which makes uniform points cheap
-///                [OwenZhou00].
+///   vegas      : rqmc through an ImportanceGrid. Whenever the calls have doubled, the grid may be learned anew from
+///                the points so far; new replicates then start, so the estimate is unbiased. An eighth of the points is
+///                uniform, so that no weighted value exceeds 8 times the integrand. The known integral of the density
+///                serves as a control variate, which makes uniform points cheap [OwenZhou00].
 ///   tree       : vegas with a BoxTree within the grid, for integrands that are no product over the axes.
-///   automatic  : rqmc first. If that has not converged by a 16th of the calls, learns a density from its points, and
-///                gives up if rqmc is clearly ahead. Compares the errors of vegas and tree, on a third of the
-///                replicates, with the error of rqmc at equal length, and continues with the best. Uses plain above
-///                1024 dimensions.
-///   error      : std_error and intervals have the coverage measured in docs/methods/integrate.md. Equal replicates
-///                never give error 0: a bound for undetected variation is added. No replicated method converges with
-///                                    fewer than 128 points per replicate, with all values 0, or with infinite
-///                                    variance. The error_bar then gives the reason.
+///   automatic  : rqmc; changes to vegas or tree during the run where that promises the wanted error earlier, and back
+///                if it does not keep the promise. Uses plain above 1024 dimensions.
+///   error      : std_error and intervals have the coverage measured in docs/accuracy.md. No bar covers a feature that
+///                no point met. Equal values converge by the rule of three. No run converges with all values 0, or
+///                with infinite variance; error_bar then gives the reason.
 ///   throws     : Error for an empty f, dim < 1, confidence outside (0,1), or threads < 0. Error for a tolerance that
 ///                is negative or not finite, or max_calls too small for one round. Error for a density of another
 ///                dimension or for a method without density, or if all outputs are auxiliary. NotFinite if the
@@ -201,7 +201,7 @@ VectorIntegral integrate_unit(const BatchIntegrand& f, int outputs, int dim, con
 
 /// Replicated randomised quasi-Monte Carlo without a tolerance: `count` points in each of `replicates` randomisations.
 Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count,
-                        std::uint32_t replicates = 24, std::uint64_t seed = 1, int threads = 0);
+                        std::uint32_t replicates = 16, std::uint64_t seed = 1, int threads = 0);
 
 namespace detail {
 template <Domain D> typename D::UnitPoint unit_point(std::span<const double> u) {

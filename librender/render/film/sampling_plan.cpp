@@ -21,7 +21,9 @@ struct TileCost {
   double variance() const { return variances[4]; }
   /// Relative variance for planning the tile at (dx, dy) from this tile.
   double variance(int dx, int dy) const {
-    return std::max(std::abs(dx), std::abs(dy)) > 1 ? variance() : variances[static_cast<std::size_t>(3 * dy + dx + 4)];
+    if (std::max(std::abs(dx), std::abs(dy)) > 1) return variance();
+    const int neighbour = 3 * dy + dx + 4;
+    return variances[static_cast<std::size_t>(neighbour)];
   }
 };
 
@@ -73,8 +75,10 @@ class Tiles {
     const int x = static_cast<int>(tile) % width, y = static_cast<int>(tile) / width;
     const auto tiles_about = [&](auto&& visit) {
       for (int j = std::max(y - 1, 0); j < std::min(y + 2, height); ++j)
-        for (int i = std::max(x - 1, 0); i < std::min(x + 2, width); ++i)
-          visit(sums_[at(i, j)], static_cast<std::size_t>(3 * (j - y) + i - x + 4));
+        for (int i = std::max(x - 1, 0); i < std::min(x + 2, width); ++i) {
+          const int neighbour = 3 * (j - y) + i - x + 4;
+          visit(sums_[at(i, j)], static_cast<std::size_t>(neighbour));
+        }
     };
     Sum all;
     tiles_about([&](const Sum& sum, std::size_t) {

@@ -76,7 +76,7 @@ TEST(DensityReuse, IsUnbiased) {
         const mc::Integral r = mc::integrate_unit(f, dim, o);
         if (r.density == first.density) {
           ++kept;
-          EXPECT_EQ(learning(r), method == Method::automatic ? 1 : 2);
+          EXPECT_EQ(learning(r), 0);
         }
         EXPECT_LE(r.calls, 10'000u);
         ++runs;
@@ -86,7 +86,7 @@ TEST(DensityReuse, IsUnbiased) {
         fresh += std::log(mc::integrate_unit(f, dim, o).estimate.std_error);
         reused += std::log(r.estimate.std_error);
       }
-      EXPECT_GE(runs, 30) << name(method);
+      EXPECT_GE(runs, 25) << name(method);
       EXPECT_GE(covered, runs * 5 / 6) << name(method) << " " << shift;
       if (shift == 0) {
         EXPECT_LT(reused, fresh) << name(method); // learned from three times the calls, with little spent on it

@@ -43,12 +43,13 @@ TEST(Expression, BoundsMayBeInfinite) {
     EXPECT_EQ(r.stop, mc::StopReason::converged) << c.expression << " over " << c.box;
     EXPECT_LE(std::abs(r.estimate.value - c.truth), 5 * r.estimate.std_error) << c.expression << " over " << c.box;
   }
-  // The integrand is constant over the unit cube; the run must not end early on such a coincidence.
+  // The integrand is constant over the unit cube: the rule of three bounds the error.
   const carlo::UnitCubeIntegral same = carlo::parse_expression("x^-2", {.domain = "x=1:inf"});
   mc::IntegrateOptions few;
   few.max_calls = 10'000;
   const mc::Integral r = mc::integrate_unit(same.f, same.dim, few);
-  EXPECT_EQ(r.stop, mc::StopReason::max_calls);
+  EXPECT_TRUE(r.constant);
+  EXPECT_GT(r.estimate.std_error, 1e-4);
   EXPECT_NEAR(r.estimate.value, 1, 1e-12);
   const double zero[] = {0};
   EXPECT_EQ(carlo::parse_expression("exp(-x*x)", {.domain = "x=-inf:inf"}).f(zero), 0);
@@ -202,10 +203,18 @@ TEST(Genz, AutomaticMethodReachesItsError) {
   }
 }
 
-// Shares of unflagged runs within 1 and 2 standard errors. n = 1080 normal errors with known sigma would give .6827 and
-// .9545, Student's t of 24 replicates .6827 and .9475. The bounds are 3.5 binomial standard deviations beyond both
-// values. So alpha = 5e-4 for each of 20 bounds, and 1 % of the choices of seeds would fail; the seeds are fixed.
-TEST(Genz, ErrorBarsAreCalibrated) {
+// A narrow peak that the default number of calls misses.
+TEST(Integrate, MinCalls_FindSmallFeatures) {
+  const std::string f = "integrate '1+1000*exp(-((x-.3)^2+(y-.6)^2)*1e5)' -d x=0:1,y=0:1 --method rqmc --min-calls ";
+  const auto value = [](const std::string& text) { return std::strtod(text.c_str() + text.find("= ") + 2, nullptr); };
+  EXPECT_NEAR(value(support::run_carlo(f + "1e6").output), 1.0314, 1e-3);
+  EXPECT_THAT(support::run_carlo("integrate 1 x -d x=0:1").output,
+              testing::AllOf(testing::HasSubstr("constant at all "), testing::HasSubstr("stopped: converged")));
+}
+
+// 93 to 98 % of the intervals contain the truth, and two bounds are 3 binomial deviations of 360 runs beyond, alpha =
+// .3 % for each of 10; the seeds are fixed.
+TEST(Genz, IntervalsHaveNominalCoverage) {
   for (const mc::Method method :
        {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
     mc::IntegrateOptions o;
@@ -213,24 +222,17 @@ TEST(Genz, ErrorBarsAreCalibrated) {
     o.rel_error = 0;
     o.max_calls = 2500;
     o.threads = 1;
-    int runs = 0, flagged = 0, within1 = 0, within2 = 0;
+    int runs = 0, covered = 0;
     for (const carlo::UnitCubeIntegral& e : carlo::genz_integrals())
-      for (int i = 0; i < 60; ++i, ++runs, ++o.seed) {
+      for (int i = 0; i < 60; ++i, ++o.seed) {
         const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
-        const double sigmas = std::abs(r.estimate.value - e.truth) / r.estimate.std_error;
-        if (!r.consistent) ++flagged;
-        else {
-          within1 += sigmas <= 1;
-          within2 += sigmas <= 2;
-        }
+        if (r.error_bar != mc::ErrorBar::known) continue;
+        ++runs;
+        covered += r.interval.lo <= e.truth && e.truth <= r.interval.hi;
       }
-    const auto slack = [&](double p) { return 3.5 * std::sqrt(p * (1 - p) / runs); };
-    const double share1 = double(within1) / (runs - flagged), share2 = double(within2) / (runs - flagged);
-    EXPECT_THAT(share1, testing::AllOf(testing::Ge(0.6827 - slack(0.6827)), testing::Le(0.6827 + slack(0.6827))))
-        << name(method);
-    EXPECT_THAT(share2, testing::AllOf(testing::Ge(0.9475 - slack(0.9475)), testing::Le(0.9545 + slack(0.9545))))
-        << name(method);
-    EXPECT_LE(flagged, 10) << name(method);
+    const double share = double(covered) / runs, deviation = std::sqrt(0.05 * 0.95 / runs);
+    EXPECT_GE(share, 0.93 - 3 * deviation) << name(method);
+    EXPECT_LE(share, 0.98 + 2 * deviation) << name(method) << runs;
   }
 }
 
@@ -262,7 +264,7 @@ TEST(Integrate, Underflow_IsNotReportedAsZero) {
   }
   EXPECT_THAT(support::run_carlo("integrate '1e300*x' -d x=0:1e-300").output, testing::ContainsRegex("x = (5.0|4.9)"));
   EXPECT_THAT(support::run_carlo("integrate x -d x=0:1e-160").output, testing::HasSubstr("e-321 ± 4.9e-324"));
-  EXPECT_THAT(support::run_carlo("integrate 'x > 2' -d x=0:1").output, testing::HasSubstr("was 0 at every point"));
+  EXPECT_THAT(support::run_carlo("integrate 'x > 2' -d x=0:1").output, testing::HasSubstr("was 0 at all"));
   EXPECT_EQ(support::run_carlo("integrate 'x-0.5' -d x=0:1 --abs-error 0.1").exit_code, 0);
 }
 

@@ -8,6 +8,7 @@
 
 #include <support/files.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -191,7 +192,7 @@ TEST_F(RenderCommand, SceneFiles_AreNotOverwritten) {
   const std::string before = mc::read_file(path("sky.exr"));
   for (const std::string& arguments :
        {" -o " + path("sky.exr"), " -o " + path("a.exr") + " --intervals " + path("./sky.exr")})
-    EXPECT_THAT(run_carlo("render " + scene + " --size 4x4 --spp 2" + arguments).output,
+    EXPECT_THAT(run_carlo(fmt::format("render {} --size 4x4 --spp 2{}", scene, arguments)).output,
                 HasSubstr("sky.exr' over a file of the scene; name another file"));
   EXPECT_EQ(mc::read_file(path("sky.exr")), before);
 }

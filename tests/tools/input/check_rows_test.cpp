@@ -19,7 +19,7 @@ mc::Report check(bool even, bool dependent) {
   carlo::OrderedSamples samples{{}, {{"i"}}, 1, p};
   mc::Pcg random(1);
   for (std::size_t i = 0; i < rows; ++i)
-    samples.points.push_back({even ? static_cast<double>(i / (rows / outcomes))
+    samples.points.push_back({even ? std::floor(static_cast<double>(i * outcomes) / static_cast<double>(rows))
                                    : std::floor(static_cast<double>(outcomes) * random.uniform<double>())});
   mc::Subject s;
   s.atoms = p;

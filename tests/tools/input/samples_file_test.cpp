@@ -4,6 +4,7 @@
 
 #include <render/io/image/image_io.h>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -297,7 +298,7 @@ TEST_F(SamplesFile, AnyNumberFormat_CorrectSamplesPass) {
     EXPECT_EQ(run(o).code, carlo::exit_ok) << format << run(o).text;
     const auto disk = [&](mc::Pcg& random) {
       const double r = std::sqrt(random.uniform<double>()), phi = 2 * pi * random.uniform<double>();
-      return fmt::format(fmt::runtime(format + "," + format), r * std::cos(phi), r * std::sin(phi));
+      return fmt::format(fmt::runtime(fmt::format("{0},{0}", format)), r * std::cos(phi), r * std::sin(phi));
     };
     o = options(samples(disk, "d.csv", 200'000), "");
     o.pdf = "1/_pi";

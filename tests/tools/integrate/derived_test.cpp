@@ -62,7 +62,7 @@ TEST(DerivedValue, IntervalsHold) {
   int within[3] = {};
   constexpr int runs = 400;
   for (int i = 0; i < runs; ++i) {
-    o.seed = static_cast<std::uint64_t>(100 + i);
+    o.seed = std::uint64_t{100} + static_cast<std::uint64_t>(i);
     o.method = i % 2 ? mc::Method::plain : mc::Method::rqmc;
     const mc::VectorIntegral r = mc::integrate_unit(f, 2, 3, o);
     for (int e = 0; e < 3; ++e) {

@@ -9,7 +9,6 @@
 namespace {
 
 using carlo::UsedFile;
-using testing::HasSubstr;
 
 struct FilesTest : support::ScratchTest {
   static std::string refusal(const std::vector<UsedFile>& files) {

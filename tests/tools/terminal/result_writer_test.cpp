@@ -15,7 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using carlo::ResultWriter;
-using testing::HasSubstr;
 
 struct ResultWriterTest : support::ScratchTest {};
 

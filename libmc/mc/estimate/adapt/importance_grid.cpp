@@ -10,9 +10,9 @@
 namespace mc {
 
 namespace {
-constexpr double uniform_share = 0.1; // of the probability, in each dimension
-constexpr double jump_share = 0.5;    // share of the height of a jump that counts as mass
-constexpr double enough = 64;         // points behind each estimate of the power of a bin
+constexpr double uniform_share = 0.05; // of the probability, in each dimension
+constexpr double jump_share = 0.5;     // share of the height of a jump that counts as mass
+constexpr double enough = 8;           // effective points behind each estimate of the power of a bin
 
 // Index of entry j in a row of n entries that is mirrored at its ends.
 std::size_t mirrored(std::ptrdiff_t j, std::ptrdiff_t n) {
@@ -76,6 +76,7 @@ void grade(std::array<double, ImportanceGrid::bins + 1>& edges) {
 ImportanceGrid::ImportanceGrid(int dim) : dim_(dim), edges_(static_cast<std::size_t>(dim) * (bins + 1)) {
   require(dim >= 1, "ImportanceGrid: dimension {} must be at least 1", dim);
   for (std::size_t i = 0; i < edges_.size(); ++i) edges_[i] = static_cast<double>(i % (bins + 1)) / bins;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) index(d);
 }
 
 ImportanceGrid::ImportanceGrid(std::vector<double> edges)
@@ -89,6 +90,25 @@ ImportanceGrid::ImportanceGrid(std::vector<double> edges)
     require(at < bins || edges_[i] == 1, "ImportanceGrid: the last edge of axis {} is {}; it must be 1", axis,
             edges_[i]);
   }
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) index(d);
+}
+
+void ImportanceGrid::index(std::size_t d) {
+  const auto n = static_cast<std::size_t>(dim_);
+  heights_.resize(n * bins);
+  first_.resize(n * (cells + 1));
+  const double* e = edges_.data() + d * (bins + 1);
+  for (std::size_t i = 0; i < bins; ++i) heights_[d * bins + i] = 1 / (bins * (e[i + 1] - e[i]));
+  for (std::size_t c = 0; c <= cells; ++c) {
+    const double* above = std::upper_bound(e + 1, e + bins, static_cast<double>(c) / cells);
+    first_[d * (cells + 1) + c] = static_cast<std::uint8_t>(above - e - 1);
+  }
+}
+
+std::size_t ImportanceGrid::bin(std::size_t d, double x) const {
+  const double* e = edges_.data() + d * (bins + 1);
+  const std::uint8_t* cell = first_.data() + d * (cells + 1) + static_cast<std::size_t>(x * cells);
+  return static_cast<std::size_t>(std::upper_bound(e + cell[0] + 1, e + cell[1] + 1, x) - e - 1);
 }
 
 std::span<const double> ImportanceGrid::edges(int d) const {
@@ -111,38 +131,29 @@ double ImportanceGrid::map(std::span<double> u) const {
 
 double ImportanceGrid::density(std::span<const double> x) const {
   double density = 1;
-  const double* e = edges_.data();
-  for (const double coordinate : x) {
-    const auto i = static_cast<std::size_t>(std::upper_bound(e + 1, e + bins, coordinate) - e);
-    density /= bins * (e[i] - e[i - 1]);
-    e += bins + 1;
-  }
+  for (std::size_t d = 0; d < x.size(); ++d) density *= heights_[d * bins + bin(d, x[d])];
   return density;
 }
 
 double ImportanceGrid::invert(std::span<double> x) const {
   double density = 1;
-  const double* e = edges_.data();
-  for (double& coordinate : x) {
-    const auto i = static_cast<std::size_t>(std::upper_bound(e + 1, e + bins, coordinate) - e);
-    const double width = e[i] - e[i - 1];
-    coordinate =
-        std::min((static_cast<double>(i - 1) + (coordinate - e[i - 1]) / width) / bins, one_minus_epsilon<double>);
-    density /= bins * width;
-    e += bins + 1;
+  for (std::size_t d = 0; d < x.size(); ++d) {
+    const std::size_t i = bin(d, x[d]);
+    const double height = heights_[d * bins + i], above = x[d] - edges_[d * (bins + 1) + i];
+    x[d] = std::min(static_cast<double>(i) / bins + above * height, one_minus_epsilon<double>);
+    density *= height;
   }
   return density;
 }
 
-void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points) {
+void ImportanceGrid::refine(std::span<const double> power, double points) {
   MC_ASSERT(power.size() == static_cast<std::size_t>(dim_) * bins);
   std::array<double, bins> mass;
   std::array<double, bins + 1> edges;
   // Few points give a noisy estimate for each bin. A density that follows the noise has huge weights where it is too
   // low, and the next sums would err by more than their error bar. Bins are therefore pooled with neighbours until they
   // have enough points.
-  const auto reach = static_cast<std::ptrdiff_t>(
-      std::clamp(std::ceil(enough * bins / static_cast<double>(points)) - 1, 0.0, bins / 2.0));
+  const auto reach = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(enough * bins / points) - 1, 0.0, bins / 2.0));
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) {
     const std::array<double, bins> p = pooled(power.subspan(d * bins, bins), reach);
     double* e = edges_.data() + d * (bins + 1);
@@ -170,6 +181,7 @@ void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points)
     }
     grade(edges);
     std::copy(edges.begin(), edges.end(), e);
+    index(d);
   }
 }
 

@@ -16,7 +16,8 @@ namespace mc {
 ///            other dimensions, which is the best separable step. Adds edges at jumps of that density. Bin widths grow
 ///            gradually away from narrow bins, because the flanks of a peak may contain no point. A tenth of the
 ///            probability stays uniform, so no region is lost and the Jacobian stays below 12.5 in each dimension. Few
-///            points determine only the coarse shape: each estimate of the power of a bin uses at least 64 points.
+///            points determine only the coarse shape: each estimate of the power of a bin uses at least 8 effective
+///            points.
 ///   Source : [Lepage78].
 class ImportanceGrid {
  public:
@@ -38,14 +39,21 @@ class ImportanceGrid {
   /// Maps one point x back to u in place and returns the density at x.
   double invert(std::span<double> x) const;
   /// Adapts the grid. `power` contains, for each dimension and bin, the sum of (f Jacobian)^2 over the `points` points
-  /// of a round.
-  void refine(std::span<const double> power, std::uint64_t points);
+  /// of a round. `points` is their effective number, (sum of squares)^2 / sum of their squares, if few dominate.
+  void refine(std::span<const double> power, double points);
   /// Edges of dimension d: bins + 1 non-decreasing numbers from 0 to 1.
   std::span<const double> edges(int d) const;
 
  private:
+  static constexpr std::size_t cells = 256; // equal intervals of each axis, for the search of bins
+
+  void index(std::size_t d);
+  std::size_t bin(std::size_t d, double x) const;
+
   int dim_;
-  std::vector<double> edges_; // dim x (bins + 1)
+  std::vector<double> edges_;       // dim x (bins + 1)
+  std::vector<double> heights_;     // dim x bins: the density of each bin
+  std::vector<std::uint8_t> first_; // dim x (cells + 1): the bin at the lower end of each cell
 };
 
 } // namespace mc

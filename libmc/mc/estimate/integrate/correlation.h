@@ -1,7 +1,7 @@
 #pragma once
 /// Correlations of the errors of several outputs.
 
-#include <mc/estimate/integrate/mean.h>
+#include <mc/estimate/integrate/error_bar.h>
 
 #include <vector>
 

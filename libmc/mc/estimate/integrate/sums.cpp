@@ -40,11 +40,11 @@ double ScaledMoments::std_deviation() const { return std::ldexp(std::sqrt(moment
 
 void Sums::zero_infinite_values(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first) {
   for (std::size_t i = 0; i < all_values.size(); ++i) {
-    if (!std::isinf(all_values[i])) continue;
+    if (!std::isinf(all_values[i])) [[likely]]
+      continue;
     all_values[i] = 0;
-    IntegrandDiagnostics& output = diagnostics[i % outputs.size()];
-    ++output.infinite_count;
-    output.infinite_volume += volumes[i / outputs.size()];
+    infinite.resize(outputs.size());
+    infinite[i % outputs.size()].merge({1, volumes[i / outputs.size()]});
     if (!first_infinite) first_infinite = first + i / outputs.size();
   }
 }
@@ -61,30 +61,20 @@ void Sums::add_to_batches(std::size_t output, std::span<const double> added, std
   }
 }
 
-void Sums::merge(const Sums& other) {
+void Sums::merge(Sums other) {
   if (outputs.empty()) {
-    *this = other;
+    *this = std::move(other);
     return;
   }
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     outputs[k].merge(other.outputs[k]);
-    diagnostics[k].merge(other.diagnostics[k]);
+    sampled[k].merge(other.sampled[k]);
   }
+  infinite.resize(std::max(infinite.size(), other.infinite.size()));
+  for (std::size_t k = 0; k < other.infinite.size(); ++k) infinite[k].merge(other.infinite[k]);
   if (!first_infinite) first_infinite = other.first_infinite;
   batches.resize(std::max(batches.size(), other.batches.size()));
   for (std::size_t i = 0; i < other.batches.size(); ++i) batches[i].merge(other.batches[i]);
-  profile.merge(other.profile);
-  points.insert(points.end(), other.points.begin(), other.points.end());
-  values.insert(values.end(), other.values.begin(), other.values.end());
-}
-
-std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all,
-                                                     std::vector<IntegrandDiagnostics> before) {
-  for (const Sums& s : all) {
-    before.resize(s.diagnostics.size());
-    for (std::size_t k = 0; k < before.size(); ++k) before[k].merge(s.diagnostics[k]);
-  }
-  return before;
 }
 
 } // namespace mc::detail

@@ -1,8 +1,7 @@
 #pragma once
 /// Sums that the tasks of a run accumulate.
 
-#include <mc/estimate/diagnostics/axis_profile.h>
-#include <mc/estimate/diagnostics/integrand_diagnostics.h>
+#include <mc/estimate/diagnostics/sampled_values.h>
 #include <mc/estimate/moments.h>
 
 #include <cstdint>
@@ -39,17 +38,27 @@ class ScaledMoments {
   int exponent_ = 0;
 };
 
-/// Moments and diagnostics of every output. Optionally also the points with their values, and the moments of batches of
-/// values.
+/// Values of one output that were infinite, and count as 0.
+struct InfiniteValues {
+  std::uint64_t count = 0; ///< Number of points.
+  double volume = 0;       ///< Volume that the points represent, in units of one point.
+
+  /// Adds the points of another sum.
+  void merge(const InfiniteValues& other) {
+    count += other.count;
+    volume += other.volume;
+  }
+};
+
+/// Moments and extreme values of every output. Optionally also the moments of batches of values.
 struct Sums {
   /// Number of batches.
   static constexpr std::size_t batch_count = 32;
 
   std::vector<ScaledMoments> outputs;               ///< Moments of each output.
-  std::vector<IntegrandDiagnostics> diagnostics;    ///< Diagnostics of each output.
-  std::vector<double> points = {}, values = {};     ///< Recorded points and values.
+  std::vector<SampledValues> sampled;               ///< All values of each output.
+  std::vector<InfiniteValues> infinite = {};        ///< Infinite values of each output.
   std::vector<ScaledMoments> batches = {};          ///< batch_count moments for each output.
-  AxisProfile profile = {};                         ///< Profile of the first points.
   std::optional<std::uint64_t> first_infinite = {}; ///< Index of the first point with an infinite value.
 
   /// Replaces infinite values by 0 and counts them. Points have indices from `first` on and represent `volumes` of the
@@ -57,13 +66,9 @@ struct Sums {
   void zero_infinite_values(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first);
 
   /// Adds values of an output with indices from `first` on: 32 to a batch, cyclically.
-  void add_to_batches(std::size_t output, std::span<const double> values, std::uint64_t first, double largest);
-  /// Adds the sums of other points.
-  void merge(const Sums& other);
+  void add_to_batches(std::size_t output, std::span<const double> added, std::uint64_t first, double largest);
+  /// Appends the values of other sums.
+  void merge(Sums other);
 };
-
-/// Diagnostics of each output over all sums, added to `before`.
-std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all,
-                                                     std::vector<IntegrandDiagnostics> before = {});
 
 } // namespace mc::detail

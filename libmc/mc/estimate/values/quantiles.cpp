@@ -1,6 +1,5 @@
 #include <mc/core/error.h>
-#include <mc/estimate/integrate/integration_run.h>
-#include <mc/estimate/integrate/mean.h>
+#include <mc/estimate/integrate/run.h>
 #include <mc/estimate/values/quantiles.h>
 
 #include <algorithm>
@@ -23,11 +22,12 @@ struct ReplicateValues {
       shares.push_back(static_cast<double>(std::upper_bound(r.begin(), r.end(), t) - r.begin()) /
                        static_cast<double>(r.size()));
     const double inside[] = {0, 1}; // a share is the mean of values in {0, 1}
-    detail::IntegrandDiagnostics sizes;
-    sizes.values.add(inside);
-    detail::ReplicateHistory history;
+    SampledValues values;
+    values.averaged.add(inside);
+    detail::SpreadHistory history;
     return detail::interval(
-        detail::mean_of_replicates(shares, static_cast<double>(replicates.front().size()), sizes, history), confidence);
+        detail::mean_of_replicates(shares, static_cast<double>(replicates.front().size()), values, 1, history),
+        confidence);
   }
 };
 
@@ -52,14 +52,18 @@ Quantile quantile(const ReplicateValues& sampled, double p, double confidence) {
           {may_be_below ? -infinity : std::min(*lo, value), hi == sampled.all.end() ? infinity : std::max(*hi, value)}};
 }
 
-ReplicateValues sample_replicates(detail::IntegrationRun& run, std::uint64_t points) try {
+ReplicateValues sample_replicates(detail::Run& run, std::uint64_t points) try {
   ReplicateValues sampled;
-  for (detail::Sums& s :
-       run.evaluate_all(run.sobol_sets(1, 0, run.options.replicates), 0, points, {}, detail::Keep::points)) {
-    std::sort(s.values.begin(), s.values.end());
-    sampled.all.insert(sampled.all.end(), s.values.begin(), s.values.end());
-    sampled.replicates.push_back(std::move(s.values));
+  const std::uint32_t replicates = run.options().replicates;
+  detail::Record record;
+  run.evaluator.evaluate(run.sobol_sets(detail::Stream::quantiles, 0, 0, replicates), 0, points, {},
+                         {.record = &record, .most_recorded = points * replicates});
+  for (std::uint64_t r = 0; r < replicates; ++r) {
+    const auto first = record.values.begin() + static_cast<std::ptrdiff_t>(r * points);
+    sampled.replicates.emplace_back(first, first + static_cast<std::ptrdiff_t>(points));
+    std::sort(sampled.replicates.back().begin(), sampled.replicates.back().end());
   }
+  sampled.all = std::move(record.values);
   std::sort(sampled.all.begin(), sampled.all.end());
   return sampled;
 } catch (const detail::Cancelled&) {
@@ -84,9 +88,9 @@ std::vector<Quantile> quantiles(const std::function<double(std::span<const doubl
   settings.seed = o.seed;
   settings.threads = o.threads;
   settings.cancel = o.cancel;
-  detail::IntegrationRun run{{.one = &f}, 1, dim, settings};
-  require(o.calls <= run.max_recorded_calls(), "quantiles: {} calls; at most {} values can be kept", o.calls,
-          run.max_recorded_calls());
+  detail::Run run{{{.one = &f}, 1, dim, settings}};
+  const std::uint64_t most = (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + 2); // 128 MB
+  require(o.calls <= most, "quantiles: {} calls; at most {} values can be kept", o.calls, most);
   const ReplicateValues sampled = sample_replicates(run, points);
   std::vector<Quantile> all;
   for (const double p : probabilities) all.push_back(quantile(sampled, p, o.confidence));

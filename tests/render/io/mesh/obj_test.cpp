@@ -140,7 +140,9 @@ TEST_F(Obj, FacesWithoutNormalsAreFlat) {
 TEST_F(Obj, GroupsAreNotSmoothedTogether) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n";
   for (const std::string word : {"", "o part\n", "g side\n", "usemtl red\n"}) {
-    const MeshFile file = read_obj(write("s.obj", corners + "f 1 2 3 4\n" + word + "f 2 5 6 3\n"));
+    std::string text = corners;
+    for (const std::string& line : {std::string("f 1 2 3 4\n"), word, std::string("f 2 5 6 3\n")}) text += line;
+    const MeshFile file = read_obj(write("s.obj", text));
     const bool is_split = word[0] == 'g' || word[0] == 'u';
     EXPECT_EQ(file.positions.size(), is_split ? 8u : 6u) << word;
     const Vec3 at_edge = to_shape(file, {}).point(0, 1, 0).ns;

@@ -37,8 +37,9 @@ std::string area(double radiance) {
 // Mitsuba gives lamps without a BSDF a black one, and other shapes a diffuse one of 1/2.
 TEST_F(Meaning, ALampWithoutABsdfReflectsNothing) {
   for (const std::string shape : {"rectangle", "sphere", "cube"}) {
-    EXPECT_EQ(seen("0,0,4", "0,0,0", sky + "<shape type=\"" + shape + "\">" + area(3) + "</shape>")[0], 3) << shape;
-    EXPECT_NEAR(seen("0,0,4", "0,0,0", sky + "<shape type=\"" + shape + "\"/>")[0], 0.5, 1e-3) << shape;
+    const std::string lamp = fmt::format("{}<shape type=\"{}\">{}</shape>", sky, shape, area(3));
+    EXPECT_EQ(seen("0,0,4", "0,0,0", lamp)[0], 3) << shape;
+    EXPECT_NEAR(seen("0,0,4", "0,0,0", fmt::format("{}<shape type=\"{}\"/>", sky, shape))[0], 0.5, 1e-3) << shape;
   }
 }
 

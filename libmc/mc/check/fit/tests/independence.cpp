@@ -49,7 +49,8 @@ Check serial_pairs(const std::vector<double>& ranks, const std::string& axis, do
     rows[a] += 1;
     columns[b] += 1;
   }
-  const double n = static_cast<double>(ranks.size() / 2);
+  const std::size_t pairs = ranks.size() / 2;
+  const auto n = static_cast<double>(pairs);
   double statistic = 0;
   for (std::size_t a = 0; a < k; ++a)
     for (std::size_t b = 0; b < k; ++b)

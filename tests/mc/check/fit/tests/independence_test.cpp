@@ -42,7 +42,7 @@ TEST(Independence, OrderedAndAlternatingSamples_Fail) {
     const mc::Report r = order(5000, value);
     return r.fault() == mc::Fault::dependent;
   };
-  EXPECT_TRUE(fails([](std::size_t i, mc::Pcg&) { return static_cast<double>(i / 10); })) << "sorted";
+  EXPECT_TRUE(fails([](std::size_t i, mc::Pcg&) { return std::floor(static_cast<double>(i) / 10); })) << "sorted";
   EXPECT_TRUE(fails([](std::size_t i, mc::Pcg&) { return std::fmod(0.5 + 0.618034 * double(i), 1.0); })) << "Kronecker";
   EXPECT_TRUE(fails([](std::size_t i, mc::Pcg& r) { return (double(i % 2) + r.uniform<double>()) / 2; })) << "strata";
   double last = 0;

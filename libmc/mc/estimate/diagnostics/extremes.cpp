@@ -1,0 +1,92 @@
+#include <mc/estimate/diagnostics/extremes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace mc {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+}
+
+Extremes::Extremes() : high_cut_(-infinity), low_cut_(infinity) {}
+
+void Extremes::add(std::span<const double> values) {
+  double sum = 0;
+  std::uint64_t zeros = 0;
+  for (const double x : values) {
+    sum += std::abs(x);
+    zeros += x == 0;
+  }
+  if (!std::isfinite(sum)) { // non-finite values, or an overflow of the sum
+    std::vector<double> finite;
+    for (const double x : values)
+      if (std::isfinite(x)) finite.push_back(x);
+    if (finite.size() < values.size()) return add(finite);
+    sum = std::numeric_limits<double>::max();
+  }
+  count_ += values.size();
+  zeros_ += zeros;
+  sum_of_sizes_ += sum;
+  for (const double x : values) {
+    if (x > high_cut_) [[unlikely]]
+      high_.push_back(x);
+    if (x < low_cut_) [[unlikely]]
+      low_.push_back(x);
+    if (std::max(high_.size(), low_.size()) >= 4 * capacity) [[unlikely]]
+      compact();
+  }
+}
+
+void Extremes::compact() {
+  const auto keep = [](std::vector<double>& values, double& cut, auto before) {
+    if (values.size() <= capacity) return;
+    const auto last = values.begin() + capacity - 1;
+    std::nth_element(values.begin(), last, values.end(), before);
+    values.resize(capacity);
+    cut = values.back();
+  };
+  keep(high_, high_cut_, std::greater<>());
+  keep(low_, low_cut_, std::less<>());
+}
+
+void Extremes::merge(const Extremes& other) {
+  count_ += other.count_;
+  zeros_ += other.zeros_;
+  sum_of_sizes_ += other.sum_of_sizes_;
+  high_cut_ = std::max(high_cut_, other.high_cut_);
+  low_cut_ = std::min(low_cut_, other.low_cut_);
+  high_.insert(high_.end(), other.high_.begin(), other.high_.end());
+  low_.insert(low_.end(), other.low_.begin(), other.low_.end());
+  if (std::max(high_.size(), low_.size()) >= 4 * capacity) compact();
+}
+
+Extremes Extremes::for_more_values() const {
+  Extremes full = *this;
+  full.compact();
+  Extremes next;
+  next.high_cut_ = full.high_cut_;
+  next.low_cut_ = full.low_cut_;
+  return next;
+}
+
+double Extremes::hi() const { return high_.empty() ? 0.0 : *std::max_element(high_.begin(), high_.end()); }
+double Extremes::lo() const { return low_.empty() ? 0.0 : *std::min_element(low_.begin(), low_.end()); }
+
+namespace {
+// The first k values in an order, or all that are kept.
+template <class Order> std::vector<double> first_values(std::vector<double> values, std::size_t k, Order before) {
+  k = std::min({k, values.size(), Extremes::capacity});
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end(), before);
+  values.resize(k);
+  std::sort(values.begin(), values.end(), before);
+  return values;
+}
+} // namespace
+
+std::vector<double> Extremes::largest(std::size_t k) const { return first_values(high_, k, std::greater<>()); }
+std::vector<double> Extremes::smallest(std::size_t k) const { return first_values(low_, k, std::less<>()); }
+
+} // namespace mc

@@ -1,0 +1,51 @@
+#pragma once
+/// The largest and the smallest of many values.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mc {
+
+/// Counts values, and keeps the 256 largest and the 256 smallest. Mergeable; the result does not depend on the order.
+class Extremes {
+ public:
+  /// Number of values that are kept on each side.
+  static constexpr std::size_t capacity = 256;
+
+  /// Adds values; non-finite values are skipped.
+  void add(std::span<const double> values);
+  /// Adds all values of another object.
+  void merge(const Extremes& other);
+  /// An empty object for values that will be merged into this one: it skips values that could not be kept.
+  Extremes for_more_values() const;
+
+  /// Number of finite values.
+  std::uint64_t count() const { return count_; }
+  /// Number of zeros.
+  std::uint64_t zeros() const { return zeros_; }
+  /// Sum of the absolute values.
+  double sum_of_sizes() const { return sum_of_sizes_; }
+  /// Largest value; 0 without values.
+  double hi() const;
+  /// Smallest value; 0 without values.
+  double lo() const;
+  /// The k largest values in descending order, or all that are kept.
+  std::vector<double> largest(std::size_t k) const;
+  /// The k smallest values in ascending order, or all that are kept.
+  std::vector<double> smallest(std::size_t k) const;
+
+ private:
+  void compact();
+
+  std::uint64_t count_ = 0, zeros_ = 0;
+  double sum_of_sizes_ = 0;
+  double high_cut_, low_cut_; // only values above or below can be kept
+  std::vector<double> high_, low_;
+
+ public:
+  Extremes();
+};
+
+} // namespace mc

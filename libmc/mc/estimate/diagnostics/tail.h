@@ -1,0 +1,48 @@
+#pragma once
+/// The tail of values, and what its largest values say of its moments.
+
+#include <mc/estimate/diagnostics/extremes.h>
+
+#include <cstddef>
+#include <span>
+
+namespace mc {
+
+/// A generalised Pareto distribution of the excesses of the largest values over a threshold.
+struct TailFit {
+  /// Shape xi: moments of order 1 / xi and above are infinite. Not positive for a bounded or exponential tail.
+  double shape = 0;
+  double largest_excess = 0; ///< Largest value minus threshold.
+  std::size_t values = 0;    ///< Number of values above the threshold.
+};
+
+/// Fits the tail of values in descending order: the last of them is the threshold. By probability-weighted moments
+/// [HoskingWallis87]; shapes above 0 by a quasi-Bayesian estimate [ZhangStephens09]. The fit does not change if a
+/// constant is added to all values.
+TailFit fit_tail(std::span<const double> descending);
+
+/// Which values form a tail.
+enum class TailSide { smallest, largest };
+
+/// Numbers of values to which a tail is fitted, and the width of the intervals of its shape.
+struct TailOptions {
+  double share = 0.025;         ///< Share of all values to which the tail is fitted, between ...
+  std::size_t least = 16,       ///< ... this number
+      most = 250;               ///< ... and this one.
+  double shape_deviation = 1.5; ///< Standard deviation of a shape of 1/2, times the root of the number of values.
+};
+
+/// A tail at three thresholds. A power law has the same shape at all of them; the flank of a peak has not.
+struct Tail {
+  TailFit fit,      ///< Fit to many values.
+      deep;         ///< Fit to a quarter of them; empty if these are too few.
+  double shape = 0; ///< Shape of `fit`, or the least upper end of an interval of the other shapes if that is less.
+};
+
+/// Upper end of the one-sigma interval of a shape.
+double upper_shape(const TailFit& fit, const TailOptions& o = {});
+
+/// Fits one tail of the values.
+Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o = {});
+
+} // namespace mc

@@ -1,0 +1,26 @@
+#pragma once
+/// Third correction of the error bar: values larger than all sampled values may add to the mean.
+
+#include <mc/estimate/diagnostics/tail.h>
+#include <mc/estimate/integrate/corrections/tuning.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc::detail {
+
+/// Expected contribution to the mean of values beyond the largest of `count` values, if they exceed it with probability
+/// 1 / count.
+///   assumes : The excesses of the largest values over a threshold follow a generalised Pareto distribution of shape
+///             xi [Pickands75].
+///   formula : Y xi / (1 - xi) / N with the largest excess Y of N values, and for xi the upper end of its one-sigma
+///             interval. Bounded tails get nothing.
+///   cap     : Upper bound of Y / N. Where replicates of n points differ by less than Y / n, their points resolve the
+///             tail.
+double tail_contribution(const TailFit& tail, double count, double cap, const Tuning& t = tuning);
+
+/// Length by which an interval with error probability alpha on either side is extended, in units of the contribution:
+/// all N values are below Y with probability alpha if Y is exceeded with probability -log(alpha) / N.
+inline double tail_extension(double alpha) { return -std::log(alpha); }
+
+} // namespace mc::detail

@@ -1,0 +1,210 @@
+#include <mc/core/types.h>
+#include <mc/estimate/integrate/corrections/pooled_variance.h>
+#include <mc/estimate/integrate/corrections/skewness.h>
+#include <mc/estimate/integrate/corrections/tail_extension.h>
+#include <mc/estimate/integrate/error_bar.h>
+#include <mc/estimate/moments.h>
+#include <mc/stats/t_test.h>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mc::detail {
+
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double least_error = std::numeric_limits<double>::denorm_min(); // a mean that underflows need not be 0
+
+// Mean and standard deviation of numbers of any size.
+struct Spread {
+  double mean = 0, deviation = 0, largest = 0;
+};
+Spread spread_of(std::span<const double> numbers) {
+  Spread s;
+  for (const double x : numbers) s.largest = std::max(s.largest, std::abs(x));
+  const int exponent = s.largest > 0 ? std::ilogb(s.largest) : 0;
+  Moments m;
+  for (const double x : numbers) m.add(std::ldexp(x, -exponent));
+  s.mean = std::ldexp(m.mean(), exponent);
+  s.deviation = std::ldexp(std::sqrt(m.variance()), exponent);
+  return s;
+}
+
+// Quantile of Student's t that is exceeded with probability alpha; of the normal distribution without degrees of
+// freedom.
+double quantile_of(double dof, double alpha) {
+  return dof > 0 ? quantile(complement(boost::math::students_t(dof), alpha))
+                 : quantile(complement(boost::math::normal(), alpha));
+}
+
+Estimate::Interval interval_at(const Mean& m, double confidence) {
+  const double alpha = 0.5 * (1 - confidence), t = quantile_of(m.dof, alpha), tail = tail_extension(alpha);
+  const double shift = skewness_shift(m.skew, m.error, t);
+  return {m.value - t * m.error + std::min(shift, 0.0) - tail * m.tail[0],
+          m.value + t * m.error + std::max(shift, 0.0) + tail * m.tail[1]};
+}
+
+double size_of(const Extremes& e) { return std::max(std::abs(e.lo()), std::abs(e.hi())); }
+} // namespace
+
+bool is_constant(const Extremes& extremes) {
+  return extremes.hi() - extremes.lo() <= 4 * std::numeric_limits<double>::epsilon() * size_of(extremes);
+}
+
+TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t) {
+  const double count = static_cast<double>(values.averaged.count());
+  TailFindings findings;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto end = static_cast<TailSide>(side);
+    const auto contribution = [&](const Tail& tail, double weight) {
+      // The tail of a sum may begin above its smooth part.
+      return weight * std::max(tail_contribution(tail.fit, count, cap / weight, t),
+                               tail_contribution(tail.deep, count, cap / weight, t));
+    };
+    const Tail tail = find_tail(values.averaged, end, t.tail);
+    findings.contribution[side] = contribution(tail, 1);
+    findings.shape[side] = tail.shape;
+    if (values.integrand.count() == 0) continue;
+    // Weights may hide the tail of the integrand. Near its largest value the density is constant.
+    const Tail bare = find_tail(values.integrand, end, t.tail);
+    findings.contribution[side] = std::max(findings.contribution[side], contribution(bare, values.weights[side]));
+    findings.shape[side] = std::min(tail.shape, bare.shape);
+  }
+  return findings;
+}
+
+namespace {
+// Shape of the heavier tail that all of the last lengths show; -infinity before there are enough of them.
+double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t) {
+  double heavier = -infinity;
+  if (shapes.size() < t.persistent) return heavier;
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::vector<double> last;
+    for (const auto& s : shapes.last(t.persistent)) last.push_back(s[side]);
+    std::ranges::sort(last);
+    heavier = std::max(heavier, last[last.size() / 2]);
+  }
+  return heavier;
+}
+
+// Share of the sum that few values and those beyond the largest hold.
+double share_of_few(const Extremes& extremes, const std::array<double, 2>& unsampled, const Tuning& t) {
+  const double sum = extremes.sum_of_sizes(), count = static_cast<double>(extremes.count());
+  double most = 0;
+  for (const auto side : {TailSide::smallest, TailSide::largest}) {
+    const bool above = side == TailSide::largest;
+    const double missing = unsampled[above] * (count / sum);
+    double few = missing;
+    for (const double x : above ? extremes.largest(t.few_values) : extremes.smallest(t.few_values))
+      few += std::abs(x) / sum;
+    most = std::max(most, few / (1 + missing));
+  }
+  return most;
+}
+} // namespace
+
+ErrorBar judge(const Extremes& extremes, const std::array<double, 2>& unsampled,
+               std::span<const std::array<double, 2>> shapes, int dim, const Tuning& t) {
+  if (size_of(extremes) == 0) return ErrorBar::all_zero;
+  const double count = static_cast<double>(extremes.count()), shape = persistent_shape(shapes, t);
+  // Fewer points than the cube has corners cannot tell a singularity from a peak.
+  const bool few_points = dim > std::log2(count);
+  // One value among zeros, or few values that hold most of the sum: the next may be of any size.
+  const bool one = extremes.zeros() >= 100 && extremes.count() - extremes.zeros() == 1;
+  const bool few = count > 32 * static_cast<double>(t.few_values);
+  if (one || (few && share_of_few(extremes, unsampled, t) > t.dominating_share)) return ErrorBar::undersampled;
+  if (shape <= t.infinite_variance) return ErrorBar::known;
+  if (few_points) return ErrorBar::too_few_points;
+  return shape < t.not_integrable ? ErrorBar::infinite_variance : ErrorBar::not_integrable;
+}
+
+namespace {
+// Contributions of unsampled values, averaged over the last lengths. With a tail of shape xi they fall like n^-(1 -
+// xi), but halve at each length at which no value exceeds the largest.
+std::array<double, 2> pooled_contribution(const SpreadHistory& h, const Tuning& t) {
+  const std::size_t n = h.tails.size(), pooled = std::min(n, t.pooled_lengths);
+  std::array<double, 2> mean{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const double rate = 1 - std::clamp(h.shapes.back()[side], 0.0, t.max_shape);
+    for (std::size_t i = n - pooled; i < n; ++i)
+      mean[side] += h.tails[i][side] * std::pow(h.points[i] / h.points.back(), rate) / static_cast<double>(pooled);
+  }
+  return mean;
+}
+} // namespace
+
+Mean mean_of_replicates(std::span<const double> means, double points, const SampledValues& values, int dim,
+                        SpreadHistory& history, const Tuning& t) {
+  const Extremes& extremes = values.averaged;
+  const double replicates = static_cast<double>(means.size()), count = static_cast<double>(extremes.count());
+  const Spread s = spread_of(means);
+  // Where values of both signs cancel, rounding is relative to their size.
+  const double mean_size = count > 0 ? extremes.sum_of_sizes() / count : 0, scale = std::max(s.largest, mean_size);
+  history.points.push_back(points);
+  history.spreads.push_back(s.deviation > rounding * scale ? s.deviation : 0.0);
+  const double deviation = pooled_spread(history.points, history.spreads, t);
+  const TailFindings tails = tails_of(values, deviation / std::sqrt(replicates), t);
+  history.shapes.push_back(tails.shape);
+  history.tails.push_back(tails.contribution);
+
+  Mean m{.value = s.mean, .dof = replicates - 1};
+  const std::array<double, 2> unsampled = pooled_contribution(history, t);
+  m.bar = judge(extremes, unsampled, history.shapes, dim, t);
+  const double shape = std::max(tails.shape[0], tails.shape[1]);
+  m.tail_index = shape > 0 ? 1 / shape : infinity;
+  if (m.bar == ErrorBar::all_zero) return m;
+  m.constant = is_constant(extremes);
+  m.tail = unsampled;
+  double of_replicates = deviation;
+  if (deviation == 0) // no replicate ever differed: they may do so by one jump, or by one unseen value
+    of_replicates = m.constant ? t.unseen_value * size_of(extremes) / points / std::sqrt(replicates)
+                               : t.hidden_jump * (extremes.hi() - extremes.lo()) / points / std::sqrt(replicates);
+  m.skew = history.spreads.back() > 0 ? skew_of_mean(means, t) : 0;
+  m.error =
+      std::max({of_replicates / std::sqrt(replicates), std::numeric_limits<double>::epsilon() * scale, least_error});
+  return m;
+}
+
+Estimate::Interval interval(const Mean& m, double confidence) {
+  if (m.bar != ErrorBar::known) return {-infinity, infinity};
+  return interval_at(m, confidence);
+}
+
+double half_width(const Mean& m) {
+  static const double one_sigma = 2 * cdf(boost::math::normal(), 1.0) - 1;
+  const Estimate::Interval i = interval_at(m, one_sigma);
+  return (i.hi - i.lo) / 2;
+}
+
+Estimate estimate(const Mean& m, std::uint64_t calls) {
+  return {m.value, m.bar == ErrorBar::known ? half_width(m) : infinity, m.dof, calls};
+}
+
+Mean combine_independent(const Mean& a, const Mean& b, double share) {
+  const double of_a = (1 - share) * a.error, of_b = share * b.error, error = std::hypot(of_a, of_b);
+  Mean m = b;
+  m.value = a.value + share * (b.value - a.value);
+  m.error = error;
+  m.constant = a.constant && b.constant;
+  if (!(error > 0)) return m;
+  m.skew = a.skew * std::pow(of_a / error, 3) + b.skew * std::pow(of_b / error, 3);
+  m.dof = welch_dof(sqr(of_a / error), a.dof, sqr(of_b / error), b.dof);
+  return m;
+}
+
+std::optional<double> normal_deviate(const Mean& a, const Mean& b) {
+  const double error = std::hypot(a.error, b.error);
+  if (!(error > 0) || a.bar != ErrorBar::known || b.bar != ErrorBar::known) return {};
+  const double t =
+      std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
+  const double dof = welch_dof(sqr(a.error / error), a.dof, sqr(b.error / error), b.dof);
+  const double tail = cdf(complement(boost::math::students_t(dof), t));
+  return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
+}
+
+} // namespace mc::detail

@@ -1,0 +1,163 @@
+#include <mc/core/error.h>
+#include <mc/core/parallel.h>
+#include <mc/estimate/integrate/evaluate.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace mc::detail {
+
+namespace {
+constexpr std::uint64_t chunk = 4096;  // points per task: fixed, so that sums do not depend on the number of threads
+constexpr std::uint64_t block = 256;   // points drawn at once
+constexpr double thread_start = 5e-4;  // seconds of work above which other threads pay off
+constexpr double most_infinite = 1e-3; // largest volume of infinite values; a larger one is no singularity
+constexpr double few_infinite = 8;     // points always allowed to be infinite
+
+// Points of a block with their weights: an average of f * factor - c * shift + c.
+struct Block {
+  std::vector<double> raw, points, factors, shifts, scratch;
+
+  Block(std::size_t n, std::size_t d, bool weighted) : points(n * d), factors(n, 1.0), scratch(d) {
+    if (!weighted) return;
+    raw.resize(n * (d + 1));
+    shifts.resize(n);
+  }
+
+  void draw(const PointSet& set, std::uint64_t first, std::size_t n, std::size_t d, const Proposal& proposal) {
+    const std::span<double> all(points.data(), n * d);
+    if (!proposal.density) return fill_points(set, first, static_cast<int>(d), all);
+    fill_points(set, first, static_cast<int>(d + 1), {raw.data(), n * (d + 1)});
+    for (std::size_t i = 0; i < n; ++i) {
+      const double selector = raw[i * (d + 1)];
+      const std::span<double> x = all.subspan(i * d, d);
+      std::copy_n(raw.begin() + static_cast<std::ptrdiff_t>(i * (d + 1) + 1), d, x.begin());
+      weigh(i, x, selector < Proposal::uniform_share, *proposal.density);
+    }
+  }
+
+  void weigh(std::size_t i, std::span<double> x, bool uniform, const AdaptedDensity& p) {
+    // 1 / p is finite for mapped points; p may be 0 or infinite at uniform ones.
+    const double inverse = uniform ? 1 / p.density(x, scratch) : p.map(x);
+    constexpr double share = Proposal::uniform_share;
+    if (std::isinf(inverse)) {
+      factors[i] = 1 / share;
+      shifts[i] = 0;
+    } else {
+      shifts[i] = 1 / (share * inverse + (1 - share)); // p / q
+      factors[i] = inverse * shifts[i];                // 1 / q
+    }
+  }
+};
+
+double largest_size(std::span<const double> values) {
+  double largest = 0;
+  for (const double x : values) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+} // namespace
+
+void Integrand::operator()(std::span<const double> points, std::size_t d, std::span<double> values) const {
+  if (batch) return batch->f(points, values);
+  const std::size_t n = points.size() / d, outputs = values.size() / n;
+  if (one)
+    for (std::size_t i = 0; i < n; ++i) values[i] = (*one)(points.subspan(i * d, d));
+  else
+    for (std::size_t i = 0; i < n; ++i) (*several)(points.subspan(i * d, d), values.subspan(i * outputs, outputs));
+}
+
+Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal& proposal, Keep keep,
+                               const std::vector<SampledValues>& empty) const {
+  if (options.cancel && options.cancel->load()) throw Cancelled{};
+  const auto d = static_cast<std::size_t>(dim);
+  Sums sums{std::vector<ScaledMoments>(outputs), empty};
+  const auto most = static_cast<std::size_t>(std::min(block, range.last - range.first));
+  Block drawn(most, d, proposal.density != nullptr);
+  std::vector<double> values(outputs * most), columns(most);
+  for (std::uint64_t first = range.first; first < range.last; first += block) {
+    const auto n = static_cast<std::size_t>(std::min(block, range.last - first));
+    drawn.draw(set, first, n, d, proposal);
+    const std::span<const double> points(drawn.points.data(), n * d), factors(drawn.factors.data(), n);
+    const std::span<double> all(values.data(), n * outputs), column(columns.data(), n);
+    integrand(points, d, all);
+    sums.zero_infinite_values(all, factors, first);
+    if (const std::uint64_t done = first - range.first; keep.record && done < range.recorded) {
+      const auto m = static_cast<std::size_t>(std::min<std::uint64_t>(n, range.recorded - done));
+      const auto at = static_cast<std::ptrdiff_t>(range.place + done);
+      std::copy_n(points.begin(), m * d, keep.record->points.begin() + at * dim);
+      std::copy_n(all.begin(), m * outputs, keep.record->values.begin() + at * static_cast<std::ptrdiff_t>(outputs));
+      std::copy_n(factors.begin(), m, keep.record->weights.begin() + at);
+    }
+    for (std::size_t k = 0; k < outputs; ++k) {
+      for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
+      if (proposal.density) {
+        sums.sampled[k].add_weighted(column, factors);
+        for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
+      } else sums.sampled[k].averaged.add(column);
+      if (proposal.density && !proposal.control_coefficients.empty()) {
+        const double c = proposal.control_coefficients[k];
+        for (std::size_t i = 0; i < n; ++i) column[i] += c * (1 - drawn.shifts[i]);
+      }
+      const double largest = largest_size(column);
+      if (keep.batches) sums.add_to_batches(k, column, first, largest);
+      sums.outputs[k].add(column, first, largest);
+    }
+  }
+  return sums;
+}
+
+std::vector<Sums> Evaluator::evaluate(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
+                                      const Proposal& proposal, Keep keep, const std::vector<SampledValues>& before) {
+  const std::uint64_t chunks = (count + chunk - 1) / chunk;
+  std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
+  std::vector<SampledValues> empty(outputs);
+  for (std::size_t k = 0; k < before.size(); ++k) empty[k] = before[k].for_more_values();
+  const std::uint64_t recorded = keep.record ? std::min(count, keep.most_recorded / sets.size()) : 0;
+  if (keep.record) {
+    keep.record->points.resize(sets.size() * recorded * static_cast<std::size_t>(dim));
+    keep.record->values.resize(sets.size() * recorded * outputs);
+    keep.record->weights.resize(sets.size() * recorded);
+  }
+  const auto task = [&](std::size_t i) {
+    const std::uint64_t set = i / chunks, done = i % chunks * chunk;
+    const Chunk range{first + done, first + std::min(done + chunk, count), recorded - std::min(recorded, done),
+                      set * recorded + done};
+    parts[i] = evaluate_chunk(sets[set], range, proposal, keep, empty);
+  };
+  // Other threads start only if they pay off, judged by the time of the first task.
+  const auto begin = std::chrono::steady_clock::now();
+  task(0);
+  const std::chrono::duration<double> once = std::chrono::steady_clock::now() - begin;
+  const bool pays = once.count() * static_cast<double>(parts.size() - 1) > thread_start;
+  parallel_for(parts.size() - 1, pays ? options.threads : 1, [&](std::size_t i) { task(i + 1); });
+  for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(std::move(parts[i]));
+  calls += count * sets.size();
+  // A few points do not determine the volume that they represent.
+  const double most = few_infinite + most_infinite * static_cast<double>(count * sets.size());
+  for (std::size_t k = 0; k < outputs; ++k) {
+    double volume = 0;
+    for (std::size_t r = 0; r < sets.size(); ++r) {
+      const Moments& m = results[r].outputs[k].moments();
+      if (m.non_finite_count() > 0)
+        throw_not_finite(m.non_finite_count(), count, m.first_non_finite(), sets[r], proposal);
+      if (results[r].infinite.empty()) continue;
+      const InfiniteValues& infinite = results[r].infinite[k];
+      volume += infinite.volume;
+      if (volume > most) throw_not_finite(infinite.count, count, *results[r].first_infinite, sets[r], proposal);
+    }
+  }
+  return results;
+}
+
+void Evaluator::throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t index, const PointSet& set,
+                                 const Proposal& proposal) const {
+  Block drawn(1, static_cast<std::size_t>(dim), proposal.density != nullptr);
+  drawn.draw(set, index, 1, static_cast<std::size_t>(dim), proposal);
+  std::vector<double> u(drawn.points.begin(), drawn.points.begin() + dim);
+  std::string point;
+  for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
+  throw NotFinite(bad, count, std::move(u), fmt::format("u = ({})", point));
+}
+
+} // namespace mc::detail

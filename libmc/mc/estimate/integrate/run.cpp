@@ -1,0 +1,40 @@
+#include <mc/estimate/integrate/run.h>
+#include <mc/random/hash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mc::detail {
+
+std::vector<PointSet> Run::sobol_sets(Stream stream, std::uint64_t round, std::uint32_t begin,
+                                      std::uint32_t end) const {
+  std::vector<PointSet> sets;
+  for (std::uint32_t r = begin; r < end; ++r) {
+    const std::uint64_t seed = hash(options().seed, static_cast<std::uint64_t>(stream), round, r);
+    if (stream == Stream::rqmc && evaluator.dim <= 2) sets.emplace_back(InterlacedSobol{seed});
+    else sets.emplace_back(ScrambledSobol{seed});
+  }
+  return sets;
+}
+
+void Run::record(Method method, const Means& means, bool learning) {
+  rounds.push_back({method, learning, evaluator.calls, means});
+  if (options().progress) options().progress({estimate(means.front(), evaluator.calls), evaluator.calls, seconds()});
+}
+
+double Run::excess(const Means& means) const {
+  double most = 0;
+  for (std::size_t k = 0; k < primary(); ++k) {
+    const double wanted = std::max(options().abs_error, options().rel_error * std::abs(means[k].value));
+    const double error = estimate(means[k], evaluator.calls).std_error;
+    most = std::max(most, wanted > 0 ? error / wanted : std::numeric_limits<double>::infinity());
+  }
+  return most;
+}
+
+bool Run::converged(const Means& means) const {
+  return evaluator.calls >= std::min(options().min_calls, options().max_calls) && excess(means) <= 1;
+}
+
+} // namespace mc::detail

@@ -1,0 +1,60 @@
+#include <mc/estimate/integrate/corrections/pooled_variance.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using mc::detail::convergence_rate;
+using mc::detail::pooled_spread;
+
+const std::vector<double> lengths = {64, 128, 256, 512, 1024, 2048, 4096};
+
+std::vector<double> falling(double rate) {
+  std::vector<double> spreads;
+  for (const double n : lengths) spreads.push_back(3 * std::pow(n, -rate));
+  return spreads;
+}
+
+TEST(PooledVariance, PowerLawIsReproduced) {
+  for (const double rate : {0.0, 0.5, 1.5, 2.5}) {
+    EXPECT_NEAR(convergence_rate(lengths, falling(rate)), rate, 1e-12);
+    EXPECT_NEAR(pooled_spread(lengths, falling(rate)), falling(rate).back(), 1e-12 * falling(rate).back());
+  }
+  for (const double scale : {1e-300, 1e300}) {
+    std::vector<double> spreads = falling(1);
+    for (double& s : spreads) s *= scale;
+    EXPECT_NEAR(pooled_spread(lengths, spreads) / spreads.back(), 1, 1e-9);
+  }
+}
+
+TEST(PooledVariance, RateIsClippedAndHasADefault) {
+  EXPECT_EQ(convergence_rate(lengths, falling(9)), mc::detail::tuning.max_rate);
+  std::vector<double> rising = falling(0.5);
+  std::reverse(rising.begin(), rising.end());
+  EXPECT_EQ(convergence_rate(lengths, rising), 0);
+  EXPECT_EQ(convergence_rate(std::vector<double>{64, 128}, std::vector<double>{1, 0.5}), 0.5);
+}
+
+// Replicates that agree by chance at the last length must not make the error vanish.
+TEST(PooledVariance, AgreementByChance_KeepsEarlierSpreads) {
+  std::vector<double> spreads = falling(1);
+  const double expected = spreads.back();
+  spreads.back() = 0;
+  EXPECT_GT(pooled_spread(lengths, spreads), 0.7 * expected);
+  EXPECT_EQ(pooled_spread(lengths, std::vector<double>(lengths.size(), 0.0)), 0);
+}
+
+// Without pooling the last spread counts alone.
+TEST(PooledVariance, PooledLengthsAreThoseOfTheTuning) {
+  std::vector<double> spreads = falling(0.5);
+  spreads.back() *= 0.1;
+  mc::detail::Tuning alone;
+  alone.pooled_lengths = 1;
+  EXPECT_DOUBLE_EQ(pooled_spread(lengths, spreads, alone), spreads.back());
+  EXPECT_GT(pooled_spread(lengths, spreads), 3 * spreads.back());
+}
+
+} // namespace

@@ -1,0 +1,37 @@
+#include <mc/estimate/integrate/corrections/tail_extension.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using mc::detail::tail_contribution;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+mc::TailFit fit(double shape, double largest) {
+  mc::TailFit f;
+  f.shape = shape;
+  f.largest_excess = largest;
+  f.values = 225; // a margin of .1
+  return f;
+}
+
+// Beyond Y a Pareto tail has the mean excess Y xi / (1 - xi).
+TEST(TailExtension, IsTheMeanExcessBeyondTheLargestValue) {
+  EXPECT_NEAR(tail_contribution(fit(0.4, 300), 1000, infinity), 0.3, 1e-12);
+  EXPECT_NEAR(tail_contribution(fit(0.4, 300), 1000, 0.1), 0.1, 1e-12); // the replicates differ by less
+  EXPECT_EQ(tail_contribution(fit(-0.5, 300), 1000, infinity), 0);
+  EXPECT_EQ(tail_contribution({}, 1000, infinity), 0);
+}
+
+TEST(TailExtension, ShapeIsCapped) { EXPECT_NEAR(tail_contribution(fit(3, 1), 1, infinity), 9, 1e-12); }
+
+// All of N values lie below a value that is exceeded with probability c / N with probability exp(-c).
+TEST(TailExtension, LengthFollowsTheConfidence) {
+  EXPECT_NEAR(mc::detail::tail_extension(0.025), 3.6889, 1e-4);
+  EXPECT_NEAR(std::pow(1 - 3.6889 / 1e6, 1e6), 0.025, 1e-5);
+}
+
+} // namespace
