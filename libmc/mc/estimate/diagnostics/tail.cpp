@@ -38,7 +38,8 @@ double shape_by_likelihood(std::span<const double> excesses) {
   const double largest = excesses.front(), quartile = excesses[k - 1 - (k / 4 > 0 ? (k + 2) / 4 - 1 : 0)];
   const auto count = static_cast<double>(k), nodes = 20 + std::floor(std::sqrt(count));
   std::vector<double> thetas, log_likelihoods;
-  for (double j = 0.5; j < nodes; ++j) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(nodes); ++i) {
+    const double j = static_cast<double>(i) + 0.5;
     const double theta = (std::sqrt(nodes / j) - 1) / (3 * std::max(quartile, 1e-3 * largest)) - 1 / largest;
     const double shape = shape_for(theta, excesses), log_likelihood = count * (std::log(theta / shape) - shape - 1);
     if (!std::isfinite(log_likelihood)) continue;
