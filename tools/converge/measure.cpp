@@ -204,8 +204,6 @@ void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Me
   curve.fit_center = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
-constexpr double heavy_shape = 0.6; // of an infinite variance: 1/2 and the deviation of a shape fitted to 250 values
-
 // Properties of an integrand, estimated from independent points.
 struct IntegrandProbe {
   double magnitude;  // the mean of |f| over a few points; rounding is relative to it, since the integral itself may
@@ -221,9 +219,16 @@ IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOption
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
     sizes.push_back(std::abs(x));
-  mc::Extremes all;
-  all.add(r.values);
-  const mc::Tail low = mc::find_tail(all, mc::TailSide::smallest), high = mc::find_tail(all, mc::TailSide::largest);
+  // All values are kept, so that more of them may be the tail than integrate() keeps.
+  constexpr mc::TailOptions options{.share = 1.0 / 16, .least = 128, .most = 1024};
+  const auto tail = [&](double sign) {
+    std::vector<double> values;
+    for (const double x : r.values)
+      if (std::isfinite(x)) values.push_back(sign * x);
+    std::ranges::sort(values, std::greater<>());
+    return mc::find_tail(values, values.size(), options);
+  };
+  const mc::Tail low = tail(-1), high = tail(1);
   return {mean_of(sizes), std::max(low.shape, high.shape), std::max(low.fit.shape, high.fit.shape)};
 }
 
@@ -350,7 +355,7 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
   const IntegrandProbe probe = probe_integrand(target, o);
   m.magnitude = probe.magnitude;
   const double tail_index = probe.fit_shape > 0 ? 1 / probe.fit_shape : HUGE_VAL;
-  if (probe.tail_shape > heavy_shape) m.heavy_tail = 1 / probe.tail_shape;
+  if (probe.tail_shape > 0.5) m.heavy_tail = 1 / probe.tail_shape;
   if (m.magnitude == 0) refuse_underflow(target.integral);
   const bool known = std::isfinite(target.integral.truth);
   for (std::size_t i = 0; i < methods.size(); ++i) {

@@ -74,13 +74,9 @@ double upper_shape(const TailFit& fit, const TailOptions& o) {
   return fit.shape + o.shape_deviation / std::sqrt(static_cast<double>(std::max<std::size_t>(fit.values, 1)));
 }
 
-Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o) {
-  const auto share = static_cast<std::size_t>(o.share * static_cast<double>(e.count()));
-  const std::size_t most = std::clamp(share, o.least, o.most);
-  std::vector<double> values = side == TailSide::largest ? e.largest(most + 1) : e.smallest(most + 1);
-  if (side == TailSide::smallest)
-    for (double& x : values) x = -x;
-  const auto fit = [&](std::size_t k) { return fit_tail(std::span(values).first(std::min(k + 1, values.size()))); };
+Tail find_tail(std::span<const double> descending, std::size_t count, const TailOptions& o) {
+  const std::size_t most = std::clamp(static_cast<std::size_t>(o.share * static_cast<double>(count)), o.least, o.most);
+  const auto fit = [&](std::size_t k) { return fit_tail(descending.first(std::min(k + 1, descending.size()))); };
   Tail tail{fit(most), {}, 0};
   const double top = upper_shape(fit(o.least), o);
   tail.shape = std::min(tail.fit.shape, top);
@@ -90,6 +86,13 @@ Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o) {
   const double above = 2 * tail.deep.shape - upper_shape(tail.deep, o);
   tail.shape = std::max(std::min(tail.shape, upper_shape(tail.deep, o)), std::min(above, top));
   return tail;
+}
+
+Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o) {
+  std::vector<double> values = side == TailSide::largest ? e.largest(o.most + 1) : e.smallest(o.most + 1);
+  if (side == TailSide::smallest)
+    for (double& x : values) x = -x;
+  return find_tail(values, e.count(), o);
 }
 
 } // namespace mc

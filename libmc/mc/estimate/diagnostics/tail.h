@@ -42,6 +42,8 @@ struct Tail {
 /// Upper end of the one-sigma interval of a shape.
 double upper_shape(const TailFit& fit, const TailOptions& o = {});
 
+/// Fits the tail of `count` values, the largest of which are given in descending order.
+Tail find_tail(std::span<const double> descending, std::size_t count, const TailOptions& o = {});
 /// Fits one tail of the values.
 Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o = {});
 

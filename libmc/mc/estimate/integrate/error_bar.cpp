@@ -123,21 +123,6 @@ ErrorBar judge(const Extremes& extremes, const std::array<double, 2>& unsampled,
   return shape < t.not_integrable ? ErrorBar::infinite_variance : ErrorBar::not_integrable;
 }
 
-namespace {
-// Contributions of unsampled values, averaged over the last lengths. With a tail of shape xi they fall like n^-(1 -
-// xi), but halve at each length at which no value exceeds the largest.
-std::array<double, 2> pooled_contribution(const SpreadHistory& h, const Tuning& t) {
-  const std::size_t n = h.tails.size(), pooled = std::min(n, t.pooled_lengths);
-  std::array<double, 2> mean{};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const double rate = 1 - std::clamp(h.shapes.back()[side], 0.0, t.max_shape);
-    for (std::size_t i = n - pooled; i < n; ++i)
-      mean[side] += h.tails[i][side] * std::pow(h.points[i] / h.points.back(), rate) / static_cast<double>(pooled);
-  }
-  return mean;
-}
-} // namespace
-
 Mean mean_of_replicates(std::span<const double> means, double points, const SampledValues& values, int dim,
                         SpreadHistory& history, const Tuning& t) {
   const Extremes& extremes = values.averaged;
@@ -150,10 +135,13 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
   const double deviation = pooled_spread(history.points, history.spreads, t);
   const TailFindings tails = tails_of(values, deviation / std::sqrt(replicates), t);
   history.shapes.push_back(tails.shape);
-  history.tails.push_back(tails.contribution);
+  std::array<double, 2> unsampled{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    history.contributions[side].push_back(tails.contribution[side]);
+    unsampled[side] = pooled_contribution(history.points, history.contributions[side], tails.shape[side], t);
+  }
 
   Mean m{.value = s.mean, .dof = replicates - 1};
-  const std::array<double, 2> unsampled = pooled_contribution(history, t);
   m.bar = judge(extremes, unsampled, history.shapes, dim, t);
   const double shape = std::max(tails.shape[0], tails.shape[1]);
   m.tail_index = shape > 0 ? 1 / shape : infinity;

@@ -31,10 +31,10 @@ bool is_constant(const Extremes& extremes);
 
 /// What earlier lengths of the same replicates showed of one output.
 struct SpreadHistory {
-  std::vector<double> points;                ///< Points of each replicate at each length.
-  std::vector<double> spreads;               ///< Standard deviation between the replicates.
-  std::vector<std::array<double, 2>> shapes; ///< Tail shapes of the smallest and of the largest values.
-  std::vector<std::array<double, 2>> tails;  ///< Contributions of unsampled values.
+  std::vector<double> points;                       ///< Points of each replicate at each length.
+  std::vector<double> spreads;                      ///< Standard deviation between the replicates.
+  std::vector<std::array<double, 2>> shapes;        ///< Tail shapes of the smallest and of the largest values.
+  std::array<std::vector<double>, 2> contributions; ///< Of unsampled values below and above, see tail_contribution().
 };
 
 /// Mean of independent replicates with `points` points each. Adds the present length to the history.

@@ -77,35 +77,20 @@ BoxTree tree_within(const ImportanceGrid& grid, const Samples& s, std::span<cons
 }
 } // namespace
 
-void Memory::forget_oldest(std::size_t dim, std::size_t outputs) {
-  const Source oldest = std::move(sources_.front());
-  sources_.erase(sources_.begin());
-  const auto drop = [&](std::vector<double>& values, std::size_t of_each) {
-    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(oldest.count * of_each));
-  };
-  drop(all_.points, dim);
-  drop(all_.values, outputs);
-  drop(densities_, 1);
-  std::vector<double> scratch(dim);
-  for (std::size_t i = 0; i < densities_.size(); ++i)
-    densities_[i] -= static_cast<double>(oldest.count) *
-                     oldest.proposal.density_at(std::span(all_.points).subspan(i * dim, dim), scratch);
-}
-
-void Memory::add(const Record& record, const Proposal& proposal, int dim) {
+void MixtureRecord::add(const Record& record, const Proposal& proposal, int dim) {
   const auto d = static_cast<std::size_t>(dim);
-  const std::size_t count = record.weights.size(), outputs = record.values.size() / count;
-  while (!sources_.empty() && densities_.size() + count > most) forget_oldest(d, outputs);
+  const std::size_t count = record.weights.size();
+  if (densities_.size() + count > most) *this = {};
   const std::size_t before = densities_.size();
   all_.points.insert(all_.points.end(), record.points.begin(), record.points.end());
   all_.values.insert(all_.values.end(), record.values.begin(), record.values.end());
-  sources_.push_back({proposal, count});
+  sources_.push_back({proposal, static_cast<double>(count)});
   densities_.resize(before + count);
   std::vector<double> scratch(d);
   for (std::size_t i = 0; i < densities_.size(); ++i) {
     const std::span<const double> x = std::span(all_.points).subspan(i * d, d);
     for (const Source& s : i < before ? std::span(sources_).last(1) : std::span(sources_))
-      densities_[i] += static_cast<double>(s.count) * s.proposal.density_at(x, scratch);
+      densities_[i] += s.count * s.proposal.density_at(x, scratch);
   }
   all_.weights.resize(densities_.size());
   for (std::size_t i = 0; i < densities_.size(); ++i)

@@ -71,9 +71,9 @@ struct Samples {
 
 /// Recorded points of several proposals, as one sample of their mixture: the weight of a point is 1 / density of the
 /// mixture, in which each proposal counts by its number of points (the balance heuristic, [Veach97]).
-class Memory {
+class MixtureRecord {
  public:
-  static constexpr std::size_t most = std::size_t{1} << 16; ///< Points above which the oldest proposals are forgotten.
+  static constexpr std::size_t most = std::size_t{1} << 16; ///< Points; more of them start an empty record.
 
   /// Adds points of `dim` coordinates that were drawn through a proposal.
   void add(const Record& record, const Proposal& proposal, int dim);
@@ -83,9 +83,8 @@ class Memory {
  private:
   struct Source {
     Proposal proposal;
-    std::size_t count;
+    double count; // of its points
   };
-  void forget_oldest(std::size_t dim, std::size_t outputs);
 
   std::vector<Source> sources_;
   Record all_;

@@ -38,7 +38,7 @@ const Means& Replicates::add(std::uint32_t more) {
     h.points.pop_back();
     h.spreads.pop_back();
     h.shapes.pop_back();
-    h.tails.pop_back();
+    for (std::vector<double>& c : h.contributions) c.pop_back();
   }
   measure();
   return means_;

@@ -26,7 +26,7 @@ void Run::record(Method method, const Means& means, bool learning) {
 double Run::excess(const Means& means) const {
   double most = 0;
   for (std::size_t k = 0; k < primary(); ++k) {
-    const double wanted = std::max(options().abs_error, options().rel_error * std::abs(means[k].value));
+    const double wanted = wanted_error(means[k]);
     const double error = estimate(means[k], evaluator.calls).std_error;
     most = std::max(most, wanted > 0 ? error / wanted : std::numeric_limits<double>::infinity());
   }

@@ -5,7 +5,9 @@
 #include <mc/estimate/integrate/error_bar.h>
 #include <mc/estimate/integrate/evaluate.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -55,6 +57,10 @@ struct Run {
   std::vector<PointSet> sobol_sets(Stream stream, std::uint64_t round, std::uint32_t begin, std::uint32_t end) const;
   /// Records a round, and reports the progress.
   void record(Method method, const Means& means, bool learning = false);
+  /// Standard error at which an output has converged.
+  double wanted_error(const Mean& mean) const {
+    return std::max(options().abs_error, options().rel_error * std::abs(mean.value));
+  }
   /// Whether every primary output has the wanted error, after at least min_calls calls.
   bool converged(const Means& means) const;
   /// Factor by which the errors of the primary outputs exceed the wanted ones; infinite if one is not known or 0 is

@@ -95,6 +95,36 @@ TEST(LearnDensity, DoesNotFollowSinglePoints) {
   EXPECT_LE(largest, 2.5);
 }
 
+// The points of two densities are one sample: its weighted mean is the integral, and no weight exceeds that of the
+// density which has a point in its region.
+TEST(MixtureRecord, PointsOfAllProposalsAreOneSample) {
+  const Proposal uniform, peaked{std::make_shared<mc::AdaptedDensity>(
+                                     adapted({mc::ImportanceGrid(2)}, {record_of(peaks, 2, 256), 2, 1, 1}, false)),
+                                 {}};
+  detail::MixtureRecord all;
+  all.add(record_of(peaks, 2, 256, uniform, 1), uniform, 2);
+  all.add(record_of(peaks, 2, 512, peaked, 2), peaked, 2);
+  const Record& r = all.record();
+  ASSERT_EQ(r.weights.size(), 16u * (256 + 512));
+  double mean = 0, volume = 0, largest = 0;
+  for (std::size_t i = 0; i < r.weights.size(); ++i) {
+    mean += r.weights[i] * r.values[i] / static_cast<double>(r.weights.size());
+    volume += r.weights[i] / static_cast<double>(r.weights.size());
+    largest = std::max(largest, r.weights[i]);
+  }
+  EXPECT_NEAR(mean, 2 * 2 * mc::pi<double> * 0.0025, 1e-4);
+  EXPECT_NEAR(volume, 1, 0.02);
+  EXPECT_LE(largest, 3); // a third of the points is uniform
+}
+
+TEST(MixtureRecord, IsBounded) {
+  const Proposal uniform;
+  detail::MixtureRecord all;
+  for (std::uint64_t round = 0; round < 3; ++round)
+    all.add(record_of(peaks, 2, detail::MixtureRecord::most / 32, uniform, round), uniform, 2);
+  EXPECT_EQ(all.record().weights.size(), detail::MixtureRecord::most / 2);
+}
+
 TEST(LearnDensity, AllZero_StaysUniform) {
   const Function zero = [](std::span<const double>) { return 0.0; };
   const Record record = record_of(zero, 2, 64);

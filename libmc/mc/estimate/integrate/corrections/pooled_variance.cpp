@@ -28,7 +28,8 @@ double convergence_rate(std::span<const double> points, std::span<const double> 
 
 double pooled_spread(std::span<const double> points, std::span<const double> spreads, const Tuning& t) {
   const double rate = convergence_rate(points, spreads, t);
-  const std::size_t n = points.size(), pooled = std::min(n, t.pooled_lengths);
+  // Two lengths do not tell a rate, so that the present one counts alone.
+  const std::size_t n = points.size(), pooled = n < 3 ? 1 : std::min(n, t.pooled_lengths);
   double largest = 0; // so that no square overflows or underflows
   for (std::size_t i = n - pooled; i < n; ++i) largest = std::max(largest, spreads[i]);
   if (!(largest > 0)) return 0;

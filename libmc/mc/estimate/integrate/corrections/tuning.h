@@ -10,7 +10,7 @@ namespace mc::detail {
 /// Constants of the three corrections and of the diagnostics.
 struct Tuning {
   // Pooled variance.
-  std::size_t pooled_lengths = 4; ///< Lengths with spreads that are averaged, the present one included.
+  std::size_t pooled_lengths = 4; ///< Lengths that are averaged, the present one included.
   std::size_t rate_lengths = 6;   ///< Lengths to which the rate of convergence is fitted.
   double max_rate = 3.5;          ///< Largest rate: interlaced points reach 2.5.
   double hidden_jump = 0.75;      ///< Deviation of one replicate, in units of range / points, if none ever differed.

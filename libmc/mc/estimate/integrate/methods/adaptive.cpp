@@ -19,14 +19,6 @@ constexpr double advantage = 1.25;                // by which a new density must
 constexpr double worth_another = 1.5;             // fall of the error that promises more
 constexpr double least_rate = 0.4, most_rate = 1; // that are trusted
 
-// What a method may do.
-struct Plan {
-  Method method;
-  bool may_stay_uniform; // else the first density replaces uniform points in any case
-  bool may_grow_tree;
-  bool must_grow_tree;
-};
-
 // Approximate time of a call [ns].
 double call_time(const Run& run, bool adapted) {
   const double d = run.evaluator.dim;
@@ -55,8 +47,7 @@ struct Forecast {
 
 std::vector<double> wanted_errors(const Run& run, const Means& means) {
   std::vector<double> wanted;
-  for (std::size_t k = 0; k < run.primary(); ++k)
-    wanted.push_back(std::max(run.options().abs_error, run.options().rel_error * std::abs(means[k].value)));
+  for (std::size_t k = 0; k < run.primary(); ++k) wanted.push_back(run.wanted_error(means[k]));
   return wanted;
 }
 
@@ -111,21 +102,21 @@ AdaptedDensity density_of(const Run& run, const Replicates& r) {
 }
 
 // A density to start anew with. If forced it is learned from all points, else from half of them, and it must pay on the
-// other half. A tree is tried within a grid that was adopted before, or where it is asked for.
-std::optional<Proposal> better_proposal(const Run& run, const Replicates& r, const Record& record, const Plan& plan,
+// other half. automatic tries a tree where few points dominated the sum.
+std::optional<Proposal> better_proposal(const Run& run, const Replicates& r, const Record& record, Method method,
                                         bool forced, bool hard) {
   const auto samples = [&](Samples::Half half) {
     return Samples{record, run.evaluator.dim, run.evaluator.outputs, run.primary(), half};
   };
-  const bool tree = plan.must_grow_tree || (plan.may_grow_tree && hard);
-  const Samples::Half learned = forced && plan.must_grow_tree == tree ? Samples::Half::both : Samples::Half::first;
+  const bool must_grow = method == Method::tree, may_grow = must_grow || (method == Method::automatic && hard);
+  const Samples::Half learned = forced && must_grow == may_grow ? Samples::Half::both : Samples::Half::first;
   const AdaptedDensity from = density_of(run, r);
   const Forecast now = forecast(run, r);
   const std::vector<double> wanted = wanted_errors(run, r.means());
   std::optional<Proposal> best;
   double least = infinity;
   for (const bool grow_tree : {false, true}) {
-    if (grow_tree ? !tree : plan.must_grow_tree) continue;
+    if (grow_tree ? !may_grow : must_grow) continue;
     Proposal next = proposal_of(adapted(from, samples(learned), grow_tree), r.means());
     if (learned == Samples::Half::both) return next;
     const Forecast change = forecast(run, r, now, next, samples(Samples::Half::second));
@@ -150,13 +141,13 @@ Method method_of(const Replicates& r) {
 // Replicates through a sequence of densities, the first of which is uniform or the caller's. Whenever the calls have
 // doubled, a new density may replace the present one. It starts new replicates; the others are compared with the
 // answer.
-Outcome run_adaptive(Run& run, const Plan& plan) {
+Outcome run_adaptive(Run& run, Method wanted) {
   const std::uint32_t count = run.options().replicates;
-  const bool stays = plan.method == Method::automatic;
+  const bool stays = wanted == Method::automatic; // with uniform points, where no density pays
   std::uint64_t round = 0, attempt = std::min(first_attempt, run.options().max_calls / 4);
   double last = infinity; // error of the density before, for one call
   bool hard = false;      // few points dominated the sum
-  Memory memory;
+  MixtureRecord points;
   std::optional<Replicates> fallback; // through the density before, until as many calls show which is better
   const auto replicates = [&](Proposal proposal) {
     const Stream stream = proposal.density ? Stream::adapted : Stream::rqmc;
@@ -165,10 +156,10 @@ Outcome run_adaptive(Run& run, const Plan& plan) {
   Proposal first;
   if (run.options().density) first = {run.options().density, {}};
   Replicates r = replicates(std::move(first));
+  const auto method = [&] { return stays ? method_of(r) : wanted; };
   while (extend_or_add(run, r, 2 * r.calls() >= attempt)) { // the points before an attempt are recorded
-    const Method method = stays ? method_of(r) : plan.method;
-    run.record(method, r.means());
-    run.last = r.outcome(method);
+    run.record(method(), r.means());
+    run.last = r.outcome(method());
     // The points of the answer must have had the chance to meet a tail.
     if (run.converged(r.means()) && r.calls() >= std::min(run.options().min_calls, run.options().max_calls / 2)) {
       run.last->stop = StopReason::converged;
@@ -178,7 +169,10 @@ Outcome run_adaptive(Run& run, const Plan& plan) {
       const Forecast before = forecast(run, *fallback), now = forecast(run, r);
       if (!pays(run, before, now, now.calls, wanted_errors(run, r.means()))) {
         r = std::move(*fallback);
+        fallback.reset();
+        run.last = r.outcome(method());
         attempt = 8 * r.calls();
+        continue;
       }
       fallback.reset();
     }
@@ -192,11 +186,11 @@ Outcome run_adaptive(Run& run, const Plan& plan) {
     hard = hard || !std::isfinite(error);
     std::optional<Proposal> next;
     if ((must && left >= calls) || missing >= worth_an_attempt * calls) {
-      memory.add(r.record(), r.proposal(), run.evaluator.dim);
-      next = better_proposal(run, r, memory.record(), plan, forced, hard);
+      points.add(r.record(), r.proposal(), run.evaluator.dim);
+      next = better_proposal(run, r, points.record(), wanted, forced, hard);
     }
     if (!next) attempt = 4 * r.calls();
-    else if (std::isfinite(error) || run.evaluator.calls > Memory::most) attempt = 2 * r.calls();
+    else if (std::isfinite(error) || run.evaluator.calls > MixtureRecord::most) attempt = 2 * r.calls();
     else attempt = std::max(first_attempt, run.evaluator.calls / 4);
     if (!next) continue;
     last = error;
@@ -208,11 +202,11 @@ Outcome run_adaptive(Run& run, const Plan& plan) {
 }
 } // namespace
 
-Outcome run_vegas(Run& run) { return run_adaptive(run, {Method::vegas, false, false, false}); }
-Outcome run_tree(Run& run) { return run_adaptive(run, {Method::tree, false, true, true}); }
+Outcome run_vegas(Run& run) { return run_adaptive(run, Method::vegas); }
+Outcome run_tree(Run& run) { return run_adaptive(run, Method::tree); }
 Outcome run_automatic(Run& run) {
   if (static_cast<std::uint32_t>(run.evaluator.dim) > Sobol::dimensions) return run_plain(run);
-  return run_adaptive(run, {Method::automatic, true, true, false});
+  return run_adaptive(run, Method::automatic);
 }
 
 } // namespace mc::detail

@@ -28,6 +28,16 @@ TEST(TailExtension, IsTheMeanExcessBeyondTheLargestValue) {
 
 TEST(TailExtension, ShapeIsCapped) { EXPECT_NEAR(tail_contribution(fit(3, 1), 1, infinity), 9, 1e-12); }
 
+TEST(TailExtension, ContributionsArePooled) {
+  const std::vector<double> points = {64, 128, 256, 512};
+  std::vector<double> falling;
+  for (const double n : points) falling.push_back(std::pow(n, -0.3));
+  EXPECT_NEAR(mc::detail::pooled_contribution(points, falling, 0.7), falling.back(), 1e-12);
+  const std::vector<double> halving = {8, 4, 2, 1}; // no value exceeded the largest
+  EXPECT_GT(mc::detail::pooled_contribution(points, halving, 0.7), 1.9);
+  EXPECT_EQ(mc::detail::pooled_contribution(points, std::vector<double>(4, 0.0), 0.7), 0);
+}
+
 // All of N values lie below a value that is exceeded with probability c / N with probability exp(-c).
 TEST(TailExtension, LengthFollowsTheConfidence) {
   EXPECT_NEAR(mc::detail::tail_extension(0.025), 3.6889, 1e-4);

@@ -54,6 +54,17 @@ TEST(Methods, SpendMostCallsOfAnyBudget) {
   }
 }
 
+// No new density starts when the calls are spent.
+TEST(Methods, BudgetsOfWholeLengths_AreNotExceeded) {
+  mc::IntegrateOptions o;
+  o.rel_error = 0;
+  for (o.max_calls = 512; o.max_calls <= 1 << 16; o.max_calls *= 2)
+    for (const MethodRow& row : method_rows()) {
+      o.method = row.method;
+      EXPECT_LE(mc::integrate_unit(near_pole, 2, o).calls, o.max_calls) << row.name;
+    }
+}
+
 // A product is what a grid can follow; auto leaves rqmc where that pays, and stays with it where it does not.
 TEST(Methods, AutomaticChangesTheDensityOnlyWhereItPays) {
   const Function product = [](std::span<const double> u) {
