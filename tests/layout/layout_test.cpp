@@ -34,8 +34,9 @@ const Modules allowed_includes = closure({
     {"mc/table", {"mc/domain", "mc/core"}},
     {"mc/sampler", {"mc/random"}},
     {"mc/points", {"mc/core", "mc/random"}},
+    {"mc/run", {"mc/core", "mc/random"}},
     {"mc/stats", {"mc/core"}},
-    {"mc/estimate", {"mc/warp", "mc/table", "mc/sampler", "mc/stats"}},
+    {"mc/estimate", {"mc/warp", "mc/table", "mc/sampler", "mc/stats", "mc/run"}},
     {"mc/check", {"mc/estimate", "mc/stats", "mc/table", "mc/sampler"}},
     {"mc/gtest", {"mc/check"}},
     {"render/core", {"mc/core"}},
@@ -49,7 +50,7 @@ const Modules allowed_includes = closure({
     {"render/scene", {"render/accel", "render/bsdf", "render/light", "render/camera", "render/film"}},
     {"render/integrator", {"render/scene", "mc/sampler", "mc/estimate"}},
     {"render/io", {"render/scene", "render/film"}},
-    {"render", {"render/integrator", "render/scene", "render/film", "mc/sampler", "mc/estimate"}},
+    {"render", {"render/integrator", "render/scene", "render/film", "mc/sampler", "mc/estimate", "mc/run"}},
 });
 
 // Module of a path: "libmc/mc/warp/disk.h" and "mc/warp/disk.h" give "mc/warp". Files directly in render/ belong to the

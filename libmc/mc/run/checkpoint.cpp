@@ -1,0 +1,162 @@
+#include <mc/core/file.h>
+#include <mc/core/text.h>
+#include <mc/random/hash.h>
+#include <mc/run/checkpoint.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+namespace mc {
+
+namespace {
+
+// The number is that of the format. The byte order of the machine is part of the first line by its last bytes.
+constexpr std::string_view magic = "mc checkpoint 1\n";
+constexpr std::uint64_t byte_order = 0x0102030405060708;
+
+std::uint64_t checksum_of(std::string_view bytes) {
+  std::uint64_t sum = hash(bytes.size());
+  for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), sizeof sum))) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof word));
+    sum = (sum ^ mix64(word)) * 0x9e3779b97f4a7c15ULL;
+    sum ^= sum >> 29;
+  }
+  return sum;
+}
+
+// Throws Error unless the text is a complete checkpoint. Returns the bytes between the first line and the checksum.
+std::string_view checked_body(std::string_view text, const std::string& file) {
+  require(text.starts_with(magic.substr(0, magic.size() - 2)), "'{}' is no checkpoint", file);
+  require(text.starts_with(magic), "'{}' is a checkpoint of another version of its format; start the run anew", file);
+  std::string_view body = text.substr(magic.size());
+  std::uint64_t order = 0, sum = 0;
+  if (body.size() >= sizeof order + sizeof sum) {
+    std::memcpy(&order, body.data(), sizeof order);
+    std::memcpy(&sum, body.data() + body.size() - sizeof sum, sizeof sum);
+    body.remove_suffix(sizeof sum);
+  }
+  require(sum == checksum_of(body), "'{}' is damaged: its checksum is wrong; start the run anew", file);
+  require(order == byte_order, "'{}' was written on a machine with another byte order", file);
+  return body.substr(sizeof order);
+}
+
+std::string value_of(const RunIdentity& identity, const std::string& field) {
+  const auto found = std::find_if(identity.begin(), identity.end(), [&](const auto& f) { return f.first == field; });
+  return found == identity.end() ? "not stated" : "'" + printable(found->second, 200) + "'";
+}
+
+// "--seed is '1', not '2'" for every field that differs.
+std::vector<std::string> differences(const RunIdentity& saved, const RunIdentity& asked) {
+  std::vector<std::string> fields, all;
+  for (const RunIdentity* identity : {&asked, &saved})
+    for (const auto& [field, value] : *identity)
+      if (std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
+  for (const std::string& field : fields)
+    if (const std::string was = value_of(saved, field), is = value_of(asked, field); was != is)
+      all.push_back(fmt::format("{} is {}, not {}", printable(field, 200), was, is));
+  return all;
+}
+
+} // namespace
+
+/// A file that a thread writes.
+class Checkpoint::Writing {
+ public:
+  Writing(std::string file, std::string bytes)
+      : file_(std::move(file)), bytes_(std::move(bytes)), thread_([this] { write(); }) {}
+
+  bool is_finished() const { return is_finished_; }
+  /// Waits for the end. Returns the reason of a failure, or "".
+  const std::string& wait() {
+    if (thread_.joinable()) thread_.join();
+    return failure_;
+  }
+  ~Writing() { wait(); }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+
+ private:
+  void write() {
+    try {
+      const std::uint64_t sum = checksum_of(std::string_view(bytes_).substr(magic.size()));
+      bytes_.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+      write_file(file_, bytes_);
+    } catch (const std::exception& e) {
+      failure_ = e.what();
+    }
+    is_finished_ = true;
+  }
+
+  std::string file_, bytes_, failure_;
+  std::atomic<bool> is_finished_ = false;
+  std::thread thread_; // after the data that it uses
+};
+
+Checkpoint::Checkpoint(CheckpointOptions options, RunIdentity identity)
+    : options_(std::move(options)), identity_(std::move(identity)) {
+  require(options_.every >= 0, "checkpoint: {} seconds between two must be >= 0", options_.every);
+  if (!options_.resume.empty()) {
+    const std::string text = read_file(options_.resume);
+    ArchiveReader reader(checked_body(text, options_.resume));
+    RunIdentity saved;
+    with_context(options_.resume, [&] { reader(saved, saved_).require_end(); });
+    const std::vector<std::string> different = differences(saved, identity_);
+    require(different.empty(), "'{}' is of another run: {}; ask for the same, or start anew", options_.resume,
+            fmt::join(different, "; "));
+  }
+  if (!options_.file.empty()) require_writable(options_.file);
+}
+
+Checkpoint::~Checkpoint() { report_finished_writing(); }
+
+bool Checkpoint::is_due() const {
+  if (options_.file.empty() || (writing_ && !writing_->is_finished())) return false;
+  return std::chrono::duration<double>(Clock::now() - last_).count() >= options_.every;
+}
+
+void Checkpoint::report_finished_writing() {
+  if (!writing_) return;
+  const std::string& failure = writing_->wait();
+  if (!failure.empty() && options_.warn) options_.warn(failure);
+  writing_.reset();
+}
+
+void Checkpoint::save() {
+  if (options_.file.empty()) return;
+  report_finished_writing();
+  ArchiveWriter writer;
+  writer.bytes(magic.data(), magic.size());
+  writer(byte_order, identity_, std::uint64_t{open_.size()});
+  for (const auto& [name, archive] : open_) {
+    ArchiveWriter section;
+    archive(section);
+    writer(name, section.text());
+  }
+  writing_ = std::make_unique<Writing>(options_.file, writer.take());
+  last_ = Clock::now();
+}
+
+void Checkpoint::save_and_wait() {
+  save();
+  report_finished_writing();
+}
+
+const std::string* Checkpoint::open(const std::string& name, Save save) {
+  const std::size_t depth = open_.size();
+  open_.emplace_back(name, std::move(save));
+  if (depth >= saved_.size()) return nullptr;
+  require(saved_[depth].name == name, "'{}' was saved in '{}', and the run is in '{}'", options_.resume,
+          printable(saved_[depth].name), name);
+  return &saved_[depth].bytes;
+}
+
+void Checkpoint::close() {
+  open_.pop_back();
+  // What was within this section is over, and so is this section: the next at its depth is new.
+  if (saved_.size() > open_.size()) saved_.resize(open_.size());
+}
+
+} // namespace mc

@@ -1,0 +1,106 @@
+#pragma once
+/// Files from which an ended or killed run goes on.
+
+#include <mc/run/archive.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mc {
+
+/// Everything that a result depends on, as fields with the user's words: {"--seed", "1"}, {"the integrand", "x*y"}.
+using RunIdentity = std::vector<std::pair<std::string, std::string>>;
+
+/// Files and time of checkpoints.
+struct CheckpointOptions {
+  std::string file = {};                             ///< File to write.
+  double every = 60;                                 ///< Seconds between checkpoints, at least 0.
+  std::string resume = {};                           ///< File to go on from; empty: a new run.
+  std::function<void(const std::string&)> warn = {}; ///< Called with the reason where a checkpoint was not written.
+};
+
+/// Saves the state of a run to a file, and restores it.
+///   sections : The state consists of the sections that are open, the outermost first: a program opens a section for
+///              its own state, and each loop within it a further one. See Section.
+///   writing  : A file is written beside the old one by a thread of its own, synced and renamed. It has a checksum. A
+///              crash, a killed process or a full disk leaves the old file.
+///   identity : A file of another run is refused, with every field that differs.
+///   threads  : One thread at a time may use this object.
+class Checkpoint {
+ public:
+  /// Reads options.resume if it is given.
+  ///   throws : Error if this file is missing, damaged, no checkpoint, or of a run with another identity; if
+  ///            options.file cannot be written; if `every` is negative.
+  Checkpoint(CheckpointOptions options, RunIdentity identity);
+  /// Waits for the thread that writes. Does not save.
+  ~Checkpoint();
+  Checkpoint(const Checkpoint&) = delete;
+  Checkpoint& operator=(const Checkpoint&) = delete;
+
+  /// Whether the time for the next checkpoint has come.
+  bool is_due() const;
+  /// Copies the state and begins to write it.
+  void save();
+  /// Saves the state, and waits until the file is written.
+  void save_and_wait();
+
+  /// State of a part of a run, during its lifetime.
+  class Section {
+   public:
+    /// Opens a section within the open ones. If the file to go on from was saved within the same sections, restores
+    /// the state. `archive(a)` is called with an ArchiveWriter for each checkpoint, and with an ArchiveReader to
+    /// restore. A null checkpoint has no effect.
+    ///   throws : Error if the file contains another section at this place.
+    template <class Archive> Section(Checkpoint* checkpoint, const std::string& name, Archive archive) {
+      if (!checkpoint) return;
+      const std::string* bytes = checkpoint->open(name, [archive](ArchiveWriter& writer) { archive(writer); });
+      checkpoint_ = checkpoint;
+      if (!bytes) return;
+      ArchiveReader reader(*bytes);
+      archive(reader);
+      reader.require_end();
+      is_restored_ = true;
+    }
+    ~Section() {
+      if (checkpoint_) checkpoint_->close();
+    }
+    Section(const Section&) = delete;
+    Section& operator=(const Section&) = delete;
+
+    /// Whether the state was restored.
+    bool is_restored() const { return is_restored_; }
+    /// Whether no other section contains this one.
+    bool is_outermost() const { return checkpoint_ && checkpoint_->open_.size() == 1; }
+
+   private:
+    Checkpoint* checkpoint_ = nullptr;
+    bool is_restored_ = false;
+  };
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Save = std::function<void(ArchiveWriter&)>;
+  struct SavedSection {
+    std::string name, bytes;
+    template <class Archive> void archive(Archive& a) { a(name, bytes); }
+  };
+  class Writing;
+
+  // Returns the saved bytes of the section, or null.
+  const std::string* open(const std::string& name, Save save);
+  void close();
+  void report_finished_writing();
+
+  CheckpointOptions options_;
+  RunIdentity identity_;
+  std::vector<std::pair<std::string, Save>> open_; ///< Open sections, the outermost first.
+  std::vector<SavedSection> saved_;                ///< Sections of the file to go on from that may still be restored.
+  std::unique_ptr<Writing> writing_;
+  Clock::time_point last_ = Clock::now();
+};
+
+} // namespace mc
