@@ -1,6 +1,5 @@
 #include <render/light_tracing_pass.h>
 
-#include <mc/core/parallel.h>
 #include <mc/table/discrete.h>
 
 #include <algorithm>
@@ -11,7 +10,6 @@ namespace render {
 
 namespace {
 
-constexpr std::uint64_t block = 1024; // number of paths that a thread traces at a time
 // largest number of pixels under the filter along one axis
 constexpr std::size_t most_pixels = 2 * static_cast<std::size_t>(SplatFilter::max_radius) + 1;
 constexpr std::uint64_t apart = 0x6c69676874; // separates these random numbers from the numbers of the pixels
@@ -40,7 +38,9 @@ LightTracingPass::PixelChoice LightTracingPass::sample_pixel(double at, Float u,
 }
 
 template <class Stream>
-void LightTracingPass::trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, SplatBuffer& buffer) const {
+RenderStats LightTracingPass::trace_with(std::uint64_t from, std::uint64_t to, FilmBlock& block) const {
+  RenderStats stats;
+  const auto sets = static_cast<std::uint32_t>(block.sets());
   std::vector<double> profile(filter_.side());
   const double reach = filter_.reach();
   for (std::uint32_t set = 0; set < sets; ++set) {
@@ -52,50 +52,37 @@ void LightTracingPass::trace(std::uint64_t from, std::uint64_t to, std::uint32_t
       for (; point < stop; ++point) {
         const auto index = static_cast<std::uint32_t>(point - run * run_length_);
         Stream stream(points, index);
-        light_tracer_.trace(stream, max_depth_, buffer.stats.rays, [&](const Vec2& s, const Spectrum& value) {
+        light_tracer_.trace(stream, max_depth_, stats.rays, [&](const Vec2& s, const Spectrum& value) {
           const double x = double(s[0]) * extent_.width, y = double(s[1]) * extent_.height;
           if (!(x >= -reach && x < extent_.width + reach && y >= -reach && y < extent_.height + reach)) return;
           const Vec2 u = stream.next2();
           const PixelChoice column = sample_pixel(x, u[0], profile), row = sample_pixel(y, u[1], profile);
           const Spectrum weighed = value * Float(column.weight * row.weight);
           if (!value.isFinite().all()) [[unlikely]]
-            buffer.stats.add({column.pixel, row.pixel, set, index});
-          else buffer.add(extent_.crop, column.pixel, row.pixel, static_cast<int>(set), weighed);
+            stats.add({column.pixel, row.pixel, set, index});
+          else if (const int i = column.pixel - extent_.crop.x, j = row.pixel - extent_.crop.y; block.contains(i, j))
+            block.add_light_splat(i, j, static_cast<int>(set), weighed);
         });
       }
     }
   }
+  block.add_light_rays(stats.rays);
+  return stats;
 }
 
-std::uint64_t LightTracingPass::add_paths(std::uint64_t from, std::uint64_t to, int threads,
-                                          const std::function<bool()>& stop, Film& film, RenderStats& stats) const {
+void LightTracingPass::count_paths(std::uint64_t from, std::uint64_t to, Film& film) const {
   const auto sets = static_cast<std::uint32_t>(film.sets());
-  while (from < to && !stop()) {
-    const std::uint64_t end = std::min(to, from + batch_size);
-    std::vector<SplatBuffer> found((end - from + block - 1) / block);
-    mc::parallel_for(found.size(), threads, [&](std::size_t i) {
-      const std::uint64_t first = from + i * block;
-      (this->*trace_)(first, std::min(end, first + block), sets, found[i]);
-    });
-    for (const SplatBuffer& buffer : found) {
-      for (const auto& [x, y, set, value] : buffer.splats) film.add_light_splat(x, y, set, value.cast<double>());
-      film.add_light_rays(buffer.stats.rays);
-      stats.merge(buffer.stats);
-    }
-    for (std::uint32_t set = 0; set < sets; ++set) {
-      const std::uint64_t paths = (end + sets - 1 - set) / sets - (from + sets - 1 - set) / sets;
-      film.add_light_path_count(static_cast<int>(set), double(paths) / per_sample());
-    }
-    from = end;
+  for (std::uint32_t set = 0; set < sets; ++set) {
+    const std::uint64_t paths = (to + sets - 1 - set) / sets - (from + sets - 1 - set) / sets;
+    film.add_light_path_count(static_cast<int>(set), double(paths) / per_sample());
   }
-  return from;
 }
 
 // After the definition of the functions that it names: clang 14 does not instantiate functions that only a later lambda
 // names.
 LightTracingPass::Trace LightTracingPass::trace_for(PixelSampler sampler) {
   return with_stream(
-      sampler, []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTracingPass::trace<Stream>; });
+      sampler, []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTracingPass::trace_with<Stream>; });
 }
 
 } // namespace render

@@ -3,7 +3,6 @@
 
 #include <render/pixel_renderer.h>
 
-#include <functional>
 #include <vector>
 
 namespace render {
@@ -20,33 +19,20 @@ class LightTracingPass {
   /// Number of light paths for `mean` samples per pixel. Tiny images get a minimum number of paths.
   std::uint64_t path_count(double mean) const;
 
-  static constexpr std::uint64_t batch_size = 65536; ///< Number of light paths between calls of `stop`.
+  static constexpr std::uint64_t block_size = 1024; ///< Number of light paths that a thread traces at a time.
+  /// Number of light paths of which the film is told together.
+  static constexpr std::uint64_t batch_size = 64 * block_size;
 
-  /// Adds the light paths [from, to) to the film. Results do not depend on the number of threads. Contributions that
-  /// are not finite are left out and counted in `stats`. Ends early after `stop()` returns true.
-  ///   returns : number of the first path that was not traced.
-  std::uint64_t add_paths(std::uint64_t from, std::uint64_t to, int threads, const std::function<bool()>& stop,
-                          Film& film, RenderStats& stats) const;
+  /// Adds the contributions of the light paths [from, to) to a block. Contributions that are not finite are left out and
+  /// counted.
+  RenderStats trace(std::uint64_t from, std::uint64_t to, FilmBlock& block) const {
+    return (this->*trace_)(from, to, block);
+  }
+  /// Adds the light paths [from, to) to the counts of the film.
+  void count_paths(std::uint64_t from, std::uint64_t to, Film& film) const;
 
  private:
-  // A contribution to a pixel of the film.
-  struct LightSplat {
-    int x, y, set;
-    Spectrum value;
-  };
-  struct SplatBuffer {
-    std::vector<LightSplat> splats;
-    RenderStats stats;
-
-    // Adds a contribution to the pixel (x, y) of the full image, if it is in the film.
-    void add(const Crop& film, int x, int y, int set, const Spectrum& value) {
-      const int column = x - film.x, row = y - film.y;
-      if (column >= 0 && column < film.width && row >= 0 && row < film.height)
-        splats.push_back({column, row, set, value});
-    }
-  };
-  template <class Stream>
-  void trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, SplatBuffer& buffer) const;
+  template <class Stream> RenderStats trace_with(std::uint64_t from, std::uint64_t to, FilmBlock& block) const;
 
   // Number of light paths per sample of every pixel.
   double per_sample() const { return light_tracer_.light_path_rate() * double(extent_.width) * double(extent_.height); }
@@ -59,7 +45,7 @@ class LightTracingPass {
   // Selects a pixel near `at` with u in [0,1), in proportion to the filter.
   PixelChoice sample_pixel(double at, Float u, std::vector<double>& profile) const;
 
-  using Trace = void (LightTracingPass::*)(std::uint64_t, std::uint64_t, std::uint32_t, SplatBuffer&) const;
+  using Trace = RenderStats (LightTracingPass::*)(std::uint64_t, std::uint64_t, FilmBlock&) const;
   static Trace trace_for(PixelSampler sampler);
 
   const LightTracer& light_tracer_;

@@ -38,22 +38,22 @@ PixelRenderer::PixelRenderer(const Scene& scene, const PathOptions& path, const 
       extent_(extent), splat_(splat), render_row_(render_row_for(points.sampler)) {}
 
 template <class Stream>
-RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t> from,
-                                           std::span<const std::uint32_t> to, Film& film) const {
+RenderStats PixelRenderer::render_row_with(int y, int column, std::span<const std::uint32_t> from,
+                                           std::span<const std::uint32_t> to, FilmBlock& block) const {
   RenderStats stats;
   std::optional<SplatAccumulator> splat;
   if (splat_) splat.emplace(*splat_);
   const Filter drawn = splat_ ? BoxFilter() : scene_.filter();
   const int image_y = extent_.crop.y + y;
-  const auto sets = static_cast<std::uint32_t>(film.sets());
-  for (std::size_t column = 0; column < from.size(); ++column) {
-    const int x = static_cast<int>(column) - border(), image_x = extent_.crop.x + x;
+  const auto sets = static_cast<std::uint32_t>(block.sets());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const int x = column + static_cast<int>(i), image_x = extent_.crop.x + x;
     const std::uint64_t rays_before = stats.rays;
     SampleSums sums;
     for (std::uint32_t set = 0; set < sets; ++set) {
       Eigen::Array3d sum = Eigen::Array3d::Zero();
       std::uint32_t valid = 0;
-      points_.for_ranges(set, sets, from[column], to[column], [&](const PixelPoints::PointRange& range) {
+      points_.for_ranges(set, sets, from[i], to[i], [&](const PixelPoints::PointRange& range) {
         const auto points = points_.point_set<typename Stream::Points>(image_x, image_y, range);
         for (std::uint32_t point = range.begin; point < range.end; ++point) {
           Stream stream(points, point);
@@ -71,10 +71,10 @@ RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t>
           ++valid;
         }
       });
-      if (splat) splat->flush_to(film, x, y, static_cast<int>(set));
-      if (film.contains(x, y)) film.add(x, y, static_cast<int>(set), sum, valid);
+      if (splat) splat->flush_to(block, x, y, static_cast<int>(set));
+      if (block.contains(x, y)) block.add(x, y, static_cast<int>(set), sum, valid);
     }
-    film.record_samples(x, y, sums, stats.rays - rays_before);
+    block.record_samples(x, y, sums, stats.rays - rays_before);
   }
   return stats;
 }

@@ -28,6 +28,8 @@ struct RenderStats {
   void add(const InvalidSample& sample);
   /// Adds other counts.
   void merge(const RenderStats& other);
+  /// The counts, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(samples, rays, invalid, first_invalid); }
 };
 
 /// Renders the samples of pixels with points of PixelPoints. A crop has the same pixels as the full image.
@@ -42,19 +44,19 @@ class PixelRenderer {
   /// Width of the border around the film with samples that count for its pixels [pixels].
   int border() const { return splat_ ? splat_->reach() : 0; }
 
-  /// Adds the samples [from[x], to[x]) of the pixels of row y to the film. The row begins `border()` pixels to the left
-  /// of the film. Samples that are not finite are left out and counted. Writes to rows within `border()` of y.
-  RenderStats render_row(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                         Film& film) const {
-    return (this->*render_row_)(y, from, to, film);
+  /// Adds the samples [from[i], to[i]) of the pixels (column + i, y) of the film to a block. Pixels may lie in the
+  /// border. Samples that are not finite are left out and counted.
+  RenderStats render_row(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                         FilmBlock& block) const {
+    return (this->*render_row_)(y, column, from, to, block);
   }
 
  private:
-  using RenderRow = RenderStats (PixelRenderer::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>,
-                                                   Film&) const;
+  using RenderRow = RenderStats (PixelRenderer::*)(int, int, std::span<const std::uint32_t>,
+                                                   std::span<const std::uint32_t>, FilmBlock&) const;
   template <class Stream>
-  RenderStats render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                              Film& film) const;
+  RenderStats render_row_with(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                              FilmBlock& block) const;
   static RenderRow render_row_for(PixelSampler sampler);
 
   const Scene& scene_;

@@ -3,6 +3,8 @@
 
 #include <render/pixel_renderer.h>
 
+#include <mc/run/checkpoint.h>
+
 #include <atomic>
 #include <functional>
 #include <optional>
@@ -45,8 +47,10 @@ struct RenderOptions {
   Aov aov = Aov::radiance; ///< Quantity to render.
   std::uint64_t seed = 0;  ///< Seed of all random numbers.
   int threads = 0;         ///< Number of threads; 0: all of the machine.
-  std::function<void(const Progress&)> progress; ///< Called after every row by any thread, also concurrently.
-  const std::atomic<bool>* cancel = nullptr;     ///< Stops the render after the current rows once it is true.
+  std::function<void(const Progress&)> progress; ///< Called after every unit of pixels by any thread, one at a time.
+  const std::atomic<bool>* cancel = nullptr;     ///< Stops the render after the current units once it is true.
+  /// Saves and restores the samples. A render that goes on with a larger `spp` takes the samples behind them.
+  mc::Checkpoint* checkpoint = nullptr;
 };
 
 /// Image and statistics of a render.

@@ -11,42 +11,42 @@ TileRenderer::TileRenderer(const Scene& scene, const PathOptions& path, const Pi
       extent_(extent), render_row_(render_row_for(points.sampler)) {}
 
 template <class Stream>
-RenderStats TileRenderer::render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                                          Film& film) const {
+RenderStats TileRenderer::render_row_with(int y, int column, std::span<const std::uint32_t> from,
+                                          std::span<const std::uint32_t> to, FilmBlock& block) const {
   RenderStats stats;
   if (!starts_tile_row(y)) return stats;
   const auto start = [](int at) { return at - at % side; };
-  const int x = extent_.crop.x, top = start(extent_.crop.y + y);
-  for (int left = start(x); left < x + extent_.crop.width; left += side) {
+  const int x = extent_.crop.x + column, top = start(extent_.crop.y + y);
+  for (int left = start(x); left < x + static_cast<int>(from.size()); left += side) {
     const auto first = static_cast<std::size_t>(std::max(left - x, 0));
-    render_tile<Stream>(left, top, from[first], to[first], film, stats);
+    render_tile<Stream>(left, top, from[first], to[first], block, stats);
   }
   return stats;
 }
 
 template <class Stream>
-void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film,
+void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint32_t to, FilmBlock& block,
                                RenderStats& stats) const {
   std::array<Pixel, pixels> tile;
   for (int i = 0; i < int(pixels); ++i) {
     const int x = left + i % side, y = top + i / side;
-    tile[std::size_t(i)] = {x, y, film.contains(x - extent_.crop.x, y - extent_.crop.y)};
+    tile[std::size_t(i)] = {x, y, block.contains(x - extent_.crop.x, y - extent_.crop.y)};
   }
-  const auto sets = static_cast<std::uint32_t>(film.sets());
+  const auto sets = static_cast<std::uint32_t>(block.sets());
   const std::uint64_t rays_before = stats.rays;
   for (std::uint32_t set = 0; set < sets; ++set) {
     points_.for_ranges(set, sets, from, to,
                        [&](const PixelPoints::PointRange& range) { render_range<Stream>(range, tile, stats); });
     for (Pixel& pixel : tile) {
       if (pixel.counts)
-        film.add(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, static_cast<int>(set), pixel.sum, pixel.valid);
+        block.add(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, static_cast<int>(set), pixel.sum, pixel.valid);
       pixel.sum.setZero();
       pixel.valid = 0;
     }
   }
   const std::uint64_t rays = (stats.rays - rays_before) / pixels;
   for (const Pixel& pixel : tile)
-    if (pixel.counts) film.record_samples(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, pixel.sums, rays);
+    if (pixel.counts) block.record_samples(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, pixel.sums, rays);
 }
 
 template <class Stream>

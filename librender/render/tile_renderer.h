@@ -23,11 +23,12 @@ class TileRenderer {
   /// Position of the film's pixels in their tiles.
   Tiling tiling() const { return {side, extent_.crop.x % side, extent_.crop.y % side}; }
 
-  /// Adds the samples of the tiles that begin at row y to the film. The pixels of a tile have the samples [from[x],
-  /// to[x]), where x is the tile's first column. Samples that are not finite are left out and counted.
-  RenderStats render_row(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                         Film& film) const {
-    return (this->*render_row_)(y, from, to, film);
+  /// Adds the samples of the tiles that begin at row y, within the columns from `column` on, to a block. The pixels of a
+  /// tile whose first column is column + i have the samples [from[i], to[i]). Samples that are not finite are left out
+  /// and counted.
+  RenderStats render_row(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                         FilmBlock& block) const {
+    return (this->*render_row_)(y, column, from, to, block);
   }
 
  private:
@@ -43,13 +44,13 @@ class TileRenderer {
     std::uint32_t valid = 0;                     ///< Number of finite samples in the current set
   };
 
-  using RenderRow = RenderStats (TileRenderer::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>,
-                                                  Film&) const;
+  using RenderRow = RenderStats (TileRenderer::*)(int, int, std::span<const std::uint32_t>,
+                                                  std::span<const std::uint32_t>, FilmBlock&) const;
   template <class Stream>
-  RenderStats render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                              Film& film) const;
+  RenderStats render_row_with(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                              FilmBlock& block) const;
   template <class Stream>
-  void render_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, RenderStats& stats) const;
+  void render_tile(int left, int top, std::uint32_t from, std::uint32_t to, FilmBlock& block, RenderStats& stats) const;
   template <class Stream>
   void render_range(const PixelPoints::PointRange& range, std::array<Pixel, pixels>& tile, RenderStats& stats) const;
   static RenderRow render_row_for(PixelSampler sampler);

@@ -15,6 +15,15 @@ Scene ball_under_the_sky() {
   return builder.build();
 }
 
+// Renders a row from its first pixel on into a film.
+RenderStats render_row(const PixelRenderer& renderer, int y, const std::vector<std::uint32_t>& from,
+                       const std::vector<std::uint32_t>& to, Film& film) {
+  FilmBlock block(film.width(), film.height(), film.sets());
+  const RenderStats stats = renderer.render_row(y, 0, from, to, block);
+  film.add(block);
+  return stats;
+}
+
 // Samples in several calls equal samples in one call.
 TEST(PixelRenderer, SplitCallsMatchOneCall) {
   const Scene scene = ball_under_the_sky();
@@ -22,9 +31,9 @@ TEST(PixelRenderer, SplitCallsMatchOneCall) {
     const PixelRenderer renderer(scene, {}, {sampler, 5, 4}, {3, 2, {0, 0, 3, 2}});
     Film whole(3, 2, 4), parts(3, 2, 4);
     const std::vector<std::uint32_t> none = {0, 0, 0}, some = {1, 6, 19}, all = {40, 7, 19};
-    const RenderStats one = renderer.render_row(1, none, all, whole);
-    RenderStats two = renderer.render_row(1, none, some, parts);
-    two.merge(renderer.render_row(1, some, all, parts));
+    const RenderStats one = render_row(renderer, 1, none, all, whole);
+    RenderStats two = render_row(renderer, 1, none, some, parts);
+    two.merge(render_row(renderer, 1, some, all, parts));
     EXPECT_EQ(one.samples, 66u);
     EXPECT_EQ(two.samples, 66u);
     EXPECT_EQ(one.rays, two.rays);
@@ -40,6 +49,25 @@ TEST(PixelRenderer, SplitCallsMatchOneCall) {
       }
     }
     EXPECT_EQ(whole.estimate(0, 0).samples, 0u);
+  }
+}
+
+// A row in parts equals the row in one piece, bit for bit.
+TEST(PixelRenderer, PartsOfARowMatchTheRow) {
+  const Scene scene = ball_under_the_sky();
+  const PixelRenderer renderer(scene, {}, {PixelSampler::sobol, 5, 4}, {5, 2, {0, 0, 5, 2}});
+  Film whole(5, 2, 2), parts(5, 2, 2);
+  const std::vector<std::uint32_t> from(5, 1), to = {9, 8, 7, 6, 5};
+  render_row(renderer, 0, from, to, whole);
+  for (const auto& [begin, count] : {std::pair(0, 2), std::pair(2, 1), std::pair(3, 2)}) {
+    FilmBlock block(5, 2, 2);
+    renderer.render_row(0, begin, std::span(from).subspan(std::size_t(begin), std::size_t(count)),
+                        std::span(to).subspan(std::size_t(begin), std::size_t(count)), block);
+    parts.add(block);
+  }
+  for (int x = 0; x < 5; ++x) {
+    EXPECT_TRUE((whole.estimate(x, 0).mean == parts.estimate(x, 0).mean).all());
+    EXPECT_TRUE((whole.estimate(x, 0).variance == parts.estimate(x, 0).variance).all());
   }
 }
 
@@ -70,7 +98,7 @@ TEST(PixelRenderer, CameraRaysStartInEnclosingMedium) {
     const Scene scene = builder.build();
     const PixelRenderer renderer(scene, {.max_depth = 1}, {PixelSampler::sobol, 5, 4}, {1, 1, {0, 0, 1, 1}});
     Film film(1, 1, 4);
-    renderer.render_row(0, std::vector<std::uint32_t>{0}, std::vector<std::uint32_t>{400}, film);
+    render_row(renderer, 0, {0}, {400}, film);
     return film.estimate(0, 0).mean[0];
   };
   EXPECT_EQ(seen({.fov = 10, .near = 1.5}, true), 1);

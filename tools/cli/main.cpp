@@ -73,6 +73,14 @@ CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list)
   return option;
 }
 
+CLI::Option* add(CLI::App& app, const Option& o, std::optional<std::string>* text) {
+  const auto fill = [text](const std::vector<std::string>& words) {
+    *text = words.empty() ? std::string() : words.front();
+    return true;
+  };
+  return app.add_option(o.names, fill)->expected(0, 1);
+}
+
 template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* destination) {
   CLI::Option* option = app.add_option(o.names, *destination);
   if constexpr (std::integral<T>) option->transform(CLI::Validator(whole_number<T>, ""));

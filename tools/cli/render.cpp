@@ -59,8 +59,14 @@ render::SceneFile read_scene(const std::string& file, const RenderCommandOptions
   return render::read_mesh_scene(file);
 }
 
+bool is_picture(const std::string& path) { return mc::lowercase_extension(path) == ".exr"; }
+
+// Whether the run adds to a picture.
+bool resumes_picture(const RenderCommandOptions& o) { return o.resume && (o.resume->empty() || is_picture(*o.resume)); }
+
 std::string output_of(const RenderCommandOptions& options) {
   if (!options.output.empty()) return options.output;
+  if (resumes_picture(options) && !options.resume->empty()) return *options.resume;
   const std::string name = std::filesystem::path(options.scene).stem().string();
   return name + (options.compare_strategies ? "-strategies.png" : ".exr");
 }
@@ -231,13 +237,37 @@ std::string write_results(const RenderCommandOptions& options, const std::string
   return written;
 }
 
+// The files of checkpoints. A picture to go on from is none.
+CheckpointFiles checkpoint_files(const RenderCommandOptions& o) {
+  CheckpointFiles files = o.checkpoint;
+  if (o.resume && !resumes_picture(o)) files.resume = *o.resume;
+  return files;
+}
+
+// Throws Error for options that exclude each other where a run goes on.
+void refuse_contradictions(const RenderCommandOptions& o) {
+  mc::require(!o.scene.empty(), "render: SCENE is required{} (see carlo render --help)",
+              o.resume && !o.resume->empty() ? "; it stands before --resume, which takes '" + *o.resume + "'" : "");
+  if (!resumes_picture(o)) return;
+  constexpr const char* reason = "--resume of a picture averages runs, and {} is that of a single run; leave one out";
+  mc::require(!o.target_error, reason, "--target-error");
+  mc::require(o.intervals.empty(), reason, "--intervals");
+  mc::require(o.checkpoint.checkpoint.empty(), reason, "--checkpoint");
+}
+
+// The checkpoints of a run with these settings; null where none are asked for.
+std::unique_ptr<mc::Checkpoint> checkpoint_of(const RenderCommandOptions& o, const RenderFingerprint& fingerprint,
+                                              const render::RenderOptions& settings) {
+  return open_checkpoint(checkpoint_files(o), render_identity(fingerprint, settings));
+}
+
 int run_render(const RenderCommandOptions& options) {
   if (options.help_scene || options.list_strategies) {
     fmt::print("{}",
                options.help_scene ? render::mitsuba::reference() : strategies_text(terminal_columns(STDOUT_FILENO)));
     return exit_ok;
   }
-  mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
+  refuse_contradictions(options);
   limit_memory(options.memory);
   const std::string output = output_of(options);
   check_outputs(options, output);
@@ -273,12 +303,18 @@ int run_render(const RenderCommandOptions& options) {
       render_fingerprint(file, options.dialect, options.variables, read, settings, part);
   std::optional<FileLock> lock; // until the new picture is written
   std::optional<ResumeState> resumed;
-  if (options.resume && std::filesystem::exists(output)) lock.emplace(output);
-  if (options.resume) resumed = load_resume_state(output, fingerprint, part, settings);
+  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(options, fingerprint, settings);
+  if (resumes_picture(options)) {
+    const std::string picture = options.resume->empty() ? output : *options.resume;
+    if (std::filesystem::exists(picture)) lock.emplace(picture);
+    resumed = load_resume_state(picture, fingerprint, part, settings);
+  }
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
+  settings.checkpoint = checkpoint.get();
   render::RenderResult result = render::render(scene, settings);
   progress.clear();
+  if (result.partial) print_how_to_resume(checkpoint_files(options));
 
   if (resumed ? result.estimates == 0 : result.missing_rows == result.image.height) {
     fmt::print("interrupted before {}; {} {}\n", resumed ? "every pixel had a new sample" : "a row was rendered",

@@ -1,6 +1,7 @@
 #pragma once
 /// carlo render: a scene to an image with an error bar.
 
+#include <options/checkpoint_options.h>
 #include <options/subcommand.h>
 
 #include <cstddef>
@@ -26,14 +27,15 @@ struct RenderCommandOptions {
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
   std::optional<int> branches;        ///< of a path; none: librender's default
   std::uint64_t seed = 0;
-  int threads = 0;              ///< 0: all
-  std::optional<double> memory; ///< [GiB]
-  bool splat = false;           ///< samples count for all pixels under the filter
-  bool tiles = false;           ///< 2x2 pixels share paths
-  std::string tone;             ///< curve of a PNG; empty: the gallery's, or clamp
-  std::string exposure;         ///< of a PNG: stops, or auto; empty: the gallery's, or 0
-  bool layers = false;          ///< EXR only: more channels
-  bool resume = false;          ///< add to the existing picture
+  int threads = 0;                   ///< 0: all
+  std::optional<double> memory;      ///< [GiB]
+  bool splat = false;                ///< samples count for all pixels under the filter
+  bool tiles = false;                ///< 2x2 pixels share paths
+  std::string tone;                  ///< curve of a PNG; empty: the gallery's, or clamp
+  std::string exposure;              ///< of a PNG: stops, or auto; empty: the gallery's, or 0
+  bool layers = false;               ///< EXR only: more channels
+  std::optional<std::string> resume; ///< a checkpoint, or a picture to add to; "": the picture of `output`
+  CheckpointFiles checkpoint;        ///< its field `resume` is not used
   bool compare_strategies = false;
   bool allow_invalid = false; ///< write the image although samples were not finite
   std::string command;        ///< the command line, for the metadata

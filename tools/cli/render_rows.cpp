@@ -17,7 +17,6 @@ constexpr const char* strip_reason = "--compare-strategies writes a strip of sma
 constexpr const char* adaptive_reason = "splats need the same number of samples in every pixel";
 constexpr const char* splat_reason = "both share samples between pixels, and the error bar allows for one of them";
 constexpr const char* branch_reason = "a tile shares one continuation of each path, so that it does not split";
-constexpr const char* resume_reason = "--resume averages runs, and a target or an interval is that of a single run";
 
 OptionGroup common_group(RenderCommandOptions& o) {
   return {
@@ -97,34 +96,37 @@ OptionGroup image_group(RenderCommandOptions& o) {
 }
 
 OptionGroup expert_group(RenderCommandOptions& o) {
-  return {expert_options,
-          {
-              {"--resume",
-               "",
-               &o.resume,
-               "Add samples to the existing EXR of the same scene and size. --spp and --time count the new samples.",
-               false,
-               {{"--target-error", resume_reason}, {"--intervals", resume_reason}}},
-              {"--compare-strategies",
-               "",
-               &o.compare_strategies,
-               "Print the error of every strategy with equal samples and with equal time, and write a PNG strip of "
-               "their pictures with 1 to 1024 samples per pixel.",
-               false,
-               {{"--resume", strip_reason},
-                {"--layers", strip_reason},
-                {"--intervals", strip_reason},
-                {"--target-error", strip_reason}}},
-              {"--error-of", "picture|worst", &o.error_of,
-               "The error that --target-error bounds: of the picture, or of its worst block of 16x16 pixels. Default: "
-               "picture."},
-              {"-D", "NAME=VALUE", &o.variables, "Value of $NAME in the scene. May be repeated."},
-              {"--dialect", "NAME", &o.dialect, "Renderer whose defaults apply to the scene: mitsuba or lajolla."},
-              {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
-              memory_option(o.memory),
-              {"--allow-invalid", "", &o.allow_invalid,
-               "Write the image although some samples were not finite. They are left out."},
-          }};
+  OptionGroup group = {
+      expert_options,
+      {
+          {"--resume", "[FILE]", &o.resume,
+           "Go on from this file: from a checkpoint, also with a larger --spp, or from a picture (.exr) of the same "
+           "scene and size, whose samples are averaged with the new ones of --spp or --time. Default: the picture "
+           "of -o."},
+          {"--compare-strategies",
+           "",
+           &o.compare_strategies,
+           "Print the error of every strategy with equal samples and with equal time, and write a PNG strip of "
+           "their pictures with 1 to 1024 samples per pixel.",
+           false,
+           {{"--resume", strip_reason},
+            {"--layers", strip_reason},
+            {"--intervals", strip_reason},
+            {"--target-error", strip_reason},
+            {"--checkpoint", strip_reason}}},
+          {"--error-of", "picture|worst", &o.error_of,
+           "The error that --target-error bounds: of the picture, or of its worst block of 16x16 pixels. Default: "
+           "picture."},
+          {"-D", "NAME=VALUE", &o.variables, "Value of $NAME in the scene. May be repeated."},
+          {"--dialect", "NAME", &o.dialect, "Renderer whose defaults apply to the scene: mitsuba or lajolla."},
+          {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+          memory_option(o.memory),
+          {"--allow-invalid", "", &o.allow_invalid,
+           "Write the image although some samples were not finite. They are left out."},
+      }};
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  group.options.insert(group.options.begin(), files.begin(), files.end());
+  return group;
 }
 
 std::vector<HelpSection> render_sections() {

@@ -13,16 +13,17 @@
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
 #include <mc/core/file.h>
-#include <mc/core/parallel.h>
 #include <mc/core/text.h>
 #include <mc/random/hash.h>
+#include <mc/run/job.h>
 #include <mc/stats/multiple_testing.h>
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <mutex>
+#include <map>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -191,55 +192,99 @@ mc::Report check(const Case& one, const ValidateCommandOptions& o, double alpha,
   return mc::with_context(one.title(), [&] { return one.check(c); });
 }
 
-// Checks all cases. Prints their lines in order, each as soon as possible.
-CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
-                       const std::atomic<bool>* cancel) {
-  std::vector<std::optional<mc::Report>> reports(cases.size());
-  std::vector<std::string> errors(cases.size());
-  std::size_t printed = 0, finished = 0;
-  std::mutex mutex;
-  ProgressLine progress;
-  std::size_t width = 24;
-  for (const Case* c : cases) width = std::max(width, c->label().size());
-  fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7}\n", "distribution", width, "scalar", "verdict", "p",
-             "detects", "in a cell", "ns/sample", "seconds");
-  const auto print = [&](std::size_t i) {
-    if (reports[i]) fmt::print("{}", line_of(width, *cases[i], *reports[i]));
-    else fmt::print("{:<{}} {:<7} {}\n", cases[i]->label(), width, cases[i]->scalar, "error");
-  };
-  const auto is_done = [&](std::size_t i) { return reports[i] || !errors[i].empty(); };
-  mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
-    if (*cancel) return;
+/// Checks all cases: each is a unit. Prints their lines in order, each as soon as possible.
+class ValidateJob {
+ public:
+  /// The report of a case, or the error of a case that could not be checked.
+  struct Result {
     mc::Report report;
-    try {
-      report = check(*cases[i], o, alpha, cancel);
-    } catch (const Interrupted&) {
-      return;
-    } catch (const mc::Error& e) { // a crash of one case leaves the results of the others
-      errors[i] = e.what();
-    }
-    const std::lock_guard lock(mutex);
-    if (errors[i].empty()) reports[i] = std::move(report);
-    ++finished;
-    if (is_done(printed)) progress.clear();
-    for (; printed < cases.size() && is_done(printed); ++printed) print(printed);
-    std::fflush(stdout);
-    progress.show(static_cast<double>(finished) / static_cast<double>(cases.size()),
-                  fmt::format("{} of {} cases", finished, cases.size()));
-  });
-  progress.clear();
-  CheckedCases all;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!is_done(i)) continue;
-    if (i >= printed) print(i);
-    if (!reports[i]) {
-      all.unchecked.push_back({cases[i], errors[i]});
-      continue;
-    }
-    all.cases.push_back(cases[i]);
-    all.reports.push_back(std::move(*reports[i]));
+    std::string error;
+    template <class Archive> void archive(Archive& a) { a(report, error); }
+  };
+
+  ValidateJob(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
+              const std::atomic<bool>* cancel)
+      : cases_(cases), options_(o), alpha_(alpha), cancel_(cancel) {
+    for (const Case* c : cases) width_ = std::max(width_, c->label().size());
+    fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7}\n", "distribution", width_, "scalar", "verdict", "p",
+               "detects", "in a cell", "ns/sample", "seconds");
   }
-  return all;
+
+  std::size_t next_stage() { return std::exchange(has_begun_, true) ? 0 : cases_.size(); }
+  std::optional<Result> compute(std::size_t i) const {
+    Result result;
+    try {
+      result.report = check(*cases_[i], options_, alpha_, cancel_);
+    } catch (const Interrupted&) {
+      return {};
+    } catch (const mc::Error& e) { // a crash of one case leaves the results of the others
+      result.error = e.what();
+    }
+    return result;
+  }
+  void absorb(std::size_t i, Result result) {
+    results_.emplace(i, std::move(result));
+    print_lines();
+    progress_.show(static_cast<double>(results_.size()) / static_cast<double>(cases_.size()),
+                   fmt::format("{} of {} cases", results_.size(), cases_.size()));
+  }
+  template <class Archive> void archive(Archive& a) { a(has_begun_, results_); }
+
+  // Prints the lines that were not printed yet.
+  void print_lines() {
+    progress_.clear();
+    for (auto one = results_.lower_bound(printed_); one != results_.end(); ++one) {
+      const auto& [i, result] = *one;
+      if (result.error.empty()) fmt::print("{}", line_of(width_, *cases_[i], result.report));
+      else fmt::print("{:<{}} {:<7} {}\n", cases_[i]->label(), width_, cases_[i]->scalar, "error");
+      printed_ = i + 1;
+    }
+    std::fflush(stdout);
+  }
+
+  CheckedCases checked() const {
+    CheckedCases all;
+    for (const auto& [i, result] : results_) {
+      if (!result.error.empty()) {
+        all.unchecked.push_back({cases_[i], result.error});
+        continue;
+      }
+      all.cases.push_back(cases_[i]);
+      all.reports.push_back(result.report);
+    }
+    return all;
+  }
+
+ private:
+  const std::vector<const Case*>& cases_;
+  const ValidateCommandOptions& options_;
+  double alpha_;
+  const std::atomic<bool>* cancel_;
+  bool has_begun_ = false;
+  std::map<std::size_t, Result> results_; ///< by the number of the case
+  std::size_t width_ = 24, printed_ = 0;
+  ProgressLine progress_;
+};
+
+CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
+                       const std::atomic<bool>* cancel, mc::Checkpoint* checkpoint) {
+  ValidateJob job(cases, o, alpha, cancel);
+  const bool is_done = mc::run_job(job, {o.threads, cancel, checkpoint});
+  job.print_lines();
+  if (!is_done) print_how_to_resume(o.checkpoint);
+  return job.checked();
+}
+
+// The options on which the reports depend, and the cases.
+mc::RunIdentity identity_of(ValidateCommandOptions o, const std::vector<const Case*>& cases) {
+  mc::RunIdentity identity =
+      run_identity(validate_rows(o), {"NAME", "--all", "--list", "--verbose", "--threads", "--resume", "--every",
+                                      "--report", "--timeout", "--memory"});
+  std::uint64_t hash = cases.size();
+  for (const Case* c : cases) hash = mc::hash(hash, seed_of(*c, o));
+  identity.emplace_back("the cases", fmt::format("{} with the hash {:016x}", cases.size(), hash));
+  identity.emplace_back("--report", o.report.empty() ? "not wanted" : "wanted");
+  return identity;
 }
 
 // The reports of cases that did not pass, then the number of cases that passed.
@@ -294,7 +339,8 @@ int run_validate(const ValidateCommandOptions& options) {
   const std::string page =
       o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string();
 
-  const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag());
+  const std::unique_ptr<mc::Checkpoint> checkpoint = open_checkpoint(o.checkpoint, identity_of(o, cases));
+  const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag(), checkpoint.get());
   std::string errors;
   for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\n") + u.error;
   mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);

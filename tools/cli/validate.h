@@ -1,6 +1,7 @@
 #pragma once
 /// carlo validate: checks distributions with laws and statistical tests.
 
+#include <options/checkpoint_options.h>
 #include <options/subcommand.h>
 
 namespace carlo {
@@ -30,6 +31,7 @@ struct ValidateCommandOptions {
   bool dependent = false;              ///< the samples of a file need not be independent
   bool unnormalized = false;           ///< the given density is only proportional to the true one
   std::string report;                  ///< folder for index.html; empty: none
+  CheckpointFiles checkpoint;
   std::string command;
   std::string worker = "/proc/self/exe"; ///< the carlo that runs foreign code
 };

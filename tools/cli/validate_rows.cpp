@@ -7,6 +7,17 @@ namespace carlo {
 std::vector<Option> validate_rows(ValidateCommandOptions& o) {
   const Exclusion counted{"--samples", "--detect computes the number of samples"},
       given{"--samples", "every sample of the file counts"};
+  std::vector<Option> expert = {
+      {"--open-interval", "", &o.open_interval,
+       "Accept failures where u is exactly 0, or at another single point of u, and samples on the very edge of the "
+       "domain."},
+      {"--scalar", "TYPE", &o.scalar, "Check float or double alone. Default: both."},
+      {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+      output_file({"--junit", "FILE", &o.junit, "Write the results to this file as JUnit XML; - is standard output."}),
+      resume_row(o.checkpoint),
+  };
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  expert.insert(expert.end(), files.begin(), files.end());
   return in_groups({
       {common_options,
        {
@@ -69,16 +80,7 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
             "Accept rows that depend on each other, such as a point set. Default: the order of the rows and the "
             "evenness of the counts are tested, too."},
        }},
-      {expert_options,
-       {
-           {"--open-interval", "", &o.open_interval,
-            "Accept failures where u is exactly 0, or at another single point of u, and samples on the very edge of "
-            "the domain."},
-           {"--scalar", "TYPE", &o.scalar, "Check float or double alone. Default: both."},
-           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
-           output_file(
-               {"--junit", "FILE", &o.junit, "Write the results to this file as JUnit XML; - is standard output."}),
-       }},
+      {expert_options, expert},
   });
 }
 

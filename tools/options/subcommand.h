@@ -43,11 +43,12 @@ enum class FileUse { none, input, output, output_folder };
 /// One option, or a positional argument without a name.
 struct Option {
   using Destination = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*,
-                                   std::optional<int>*, std::optional<double>*>;
+                                   std::optional<int>*, std::optional<double>*, std::optional<std::string>*>;
 
   std::string names;       ///< "-o,--output"; "SCENE" for a positional argument
   std::string value;       ///< metavariable for --help: "SECONDS", "FILE"; empty for a flag
-  Destination destination; ///< filled when the option is given; its initial value is the default that --help shows
+  Destination destination; ///< filled when the option is given; its initial value is the default that --help shows.
+                           ///< An optional text is "" where the option is given without its value.
   std::string help;        ///< one or two sentences; a default that the field cannot show stands at the end
   bool required = false;
   std::vector<Exclusion> excludes = {};

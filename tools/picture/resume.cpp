@@ -1,3 +1,4 @@
+#include <input/file_hash.h>
 #include <picture/picture.h>
 #include <picture/resume.h>
 #include <terminal/message.h>
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
 namespace carlo {
@@ -45,26 +45,6 @@ constexpr auto noted = std::to_array<FingerprintEntry>({
     {"carlo.commit", "carlo"},
 });
 
-// A hash of the files' bytes, independent of their folders. "" where a file cannot be read again.
-std::string hash_of(const std::set<std::string>& files) {
-  std::vector<std::uint64_t> hashes;
-  for (const std::string& file : files) {
-    if (!std::filesystem::is_regular_file(file)) return {};
-    const std::string bytes = mc::read_file(file);
-    std::uint64_t hash = mc::hash(bytes.size());
-    for (std::size_t i = 0; i < bytes.size(); i += sizeof hash) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-      hash = mc::hash(hash, word);
-    }
-    hashes.push_back(hash);
-  }
-  std::sort(hashes.begin(), hashes.end());
-  std::uint64_t hash = hashes.size();
-  for (const std::uint64_t h : hashes) hash = mc::hash(hash, h);
-  return fmt::format("{:016x}", hash);
-}
-
 } // namespace
 
 RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect,
@@ -82,7 +62,28 @@ RenderFingerprint render_fingerprint(const std::string& file, const std::string&
           {"carlo.variables", fmt::format("{}", fmt::join(variables, " "))},
           {"carlo.finds",
            misses_light(read.scene, settings.strategy, settings.max_depth) ? "light towards lamps alone" : "all light"},
-          {"carlo.scene_hash", hash_of(read.files)}};
+          {"carlo.scene_hash", hash_of_files(read.files)}};
+}
+
+mc::RunIdentity render_identity(const RenderFingerprint& fingerprint, const render::RenderOptions& settings) {
+  mc::RunIdentity identity;
+  for (const auto& [key, words] : compared) identity.emplace_back(words, fingerprint.at(key));
+  for (const auto& [key, words] : noted) identity.emplace_back(words, fingerprint.at(key));
+  const bool is_adaptive = settings.adaptive.value_or(settings.seconds || settings.target_error);
+  const auto word = [](bool on) { return std::string(on ? "on" : "off"); };
+  identity.emplace_back("--strategy", settings.strategy.name);
+  identity.emplace_back("--branches", fmt::format("{}", settings.branches));
+  identity.emplace_back("the film's quantity", fmt::format("{}", static_cast<int>(settings.aov.kind)));
+  identity.emplace_back("--splat", word(settings.splat));
+  identity.emplace_back("--tiles", word(settings.tiles));
+  identity.emplace_back("--adaptive", word(is_adaptive));
+  if (is_adaptive)
+    identity.emplace_back("--error-of", settings.error_scope == render::ErrorScope::image ? "picture" : "worst");
+  // A plan, and the size of stratified sets, follow from the number of samples.
+  const bool is_counted = !settings.seconds && !settings.target_error;
+  const bool is_fixed = is_counted && (is_adaptive || settings.sampler == render::PixelSampler::stratified);
+  if (is_fixed || (is_counted && settings.spp == 1)) identity.emplace_back("--spp", fmt::format("{}", settings.spp));
+  return identity;
 }
 
 ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,

@@ -5,6 +5,8 @@
 #include <render/io/types.h>
 #include <render/render.h>
 
+#include <mc/run/checkpoint.h>
+
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +23,10 @@ using RenderFingerprint = std::map<std::string, std::string>;
 RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect,
                                      std::vector<std::string> variables, const render::SceneFile& read,
                                      const render::RenderOptions& settings, const render::Crop& part);
+
+/// Everything that the samples of a render depend on, for its checkpoints. The number of samples belongs to it only
+/// where the first samples depend on it, so that most renders may go on with more samples.
+mc::RunIdentity render_identity(const RenderFingerprint& fingerprint, const render::RenderOptions& settings);
 
 /// The existing picture, its samples per pixel and its number of runs.
 struct ResumeState {

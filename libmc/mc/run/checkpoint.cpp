@@ -45,10 +45,10 @@ std::string_view checked_body(std::string_view text, const std::string& file) {
 
 std::string value_of(const RunIdentity& identity, const std::string& field) {
   const auto found = std::find_if(identity.begin(), identity.end(), [&](const auto& f) { return f.first == field; });
-  return found == identity.end() ? "not stated" : "'" + printable(found->second, 200) + "'";
+  return found == identity.end() ? "not given" : "'" + printable(found->second, 200) + "'";
 }
 
-// "--seed is '1', not '2'" for every field that differs.
+// "--seed was '1' and is '2' now" for every field that differs.
 std::vector<std::string> differences(const RunIdentity& saved, const RunIdentity& asked) {
   std::vector<std::string> fields, all;
   for (const RunIdentity* identity : {&asked, &saved})
@@ -56,7 +56,7 @@ std::vector<std::string> differences(const RunIdentity& saved, const RunIdentity
       if (std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
   for (const std::string& field : fields)
     if (const std::string was = value_of(saved, field), is = value_of(asked, field); was != is)
-      all.push_back(fmt::format("{} is {}, not {}", printable(field, 200), was, is));
+      all.push_back(fmt::format("{} was {} and is {} now", printable(field, 200), was, is));
   return all;
 }
 

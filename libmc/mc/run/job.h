@@ -65,8 +65,9 @@ template <Job J> class JobRun {
   }
 
  private:
-  // Largest number of units from the first that is not absorbed. It bounds the results that wait in memory.
-  static constexpr std::size_t max_ahead = 4096;
+  // Largest number of units of a thread from the first unit that is not absorbed. It bounds the results that wait in
+  // memory. It is so large that no thread waits for a unit unless that takes as long as many others.
+  static constexpr std::size_t max_ahead = 64;
 
   bool is_cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
   bool may_start() const {
@@ -82,9 +83,9 @@ template <Job J> class JobRun {
 
   void run_stage() {
     next_ = absorbed_;
-    const int threads = options_.threads > 0 ? options_.threads : hardware_threads();
-    const std::size_t workers = std::min(static_cast<std::size_t>(threads), units_ - absorbed_);
-    parallel_for(workers, threads, [this](std::size_t) { work(); });
+    const int threads = options_.threads != 0 ? options_.threads : hardware_threads();
+    workers_ = std::min(static_cast<std::size_t>(threads), units_ - absorbed_);
+    parallel_for(workers_, options_.threads, [this](std::size_t) { work(); });
   }
 
   // Computes one unit after the other, until none is left.
@@ -110,7 +111,7 @@ template <Job J> class JobRun {
   // Waits until a unit may start. Returns nullopt where none may.
   std::optional<std::size_t> take_unit(std::unique_lock<std::mutex>& lock) {
     while (results_.contains(next_)) ++next_; // of a checkpoint
-    absorbed_more_.wait(lock, [&] { return next_ < absorbed_ + max_ahead || next_ >= units_; });
+    absorbed_more_.wait(lock, [&] { return next_ < absorbed_ + max_ahead * workers_ || next_ >= units_; });
     if (next_ >= units_ || is_cancelled() || !may_start()) return {};
     return next_++;
   }
@@ -135,7 +136,8 @@ template <Job J> class JobRun {
   std::condition_variable absorbed_more_;
   std::size_t units_ = 0,                             ///< of this stage
       absorbed_ = 0,                                  ///< the first units, whose results the job has
-      next_ = 0;                                      ///< the first unit that is not started
+      next_ = 0,                                      ///< the first unit that is not started
+      workers_ = 0;                                   ///< threads of this stage
   std::map<std::size_t, typename J::Result> results_; ///< of units behind one that is still computed
 };
 

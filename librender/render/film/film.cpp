@@ -1,4 +1,5 @@
 #include <render/film/film.h>
+#include <render/film/film_block.h>
 
 #include <mc/core/error.h>
 #include <mc/stats/chi_square.h>
@@ -149,6 +150,14 @@ void Film::add_light_splat(int x, int y, int set, const Eigen::Array3d& value) {
   const std::size_t i = index(x, y);
   light_[i * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set)] += value;
   light_sums_[i].add(value);
+}
+
+void Film::add(const FilmBlock& block) {
+  for (const auto& [x, y, set, count, sum] : block.sums_) add(x, y, set, sum, count);
+  for (const auto& [x, y, set, sum] : block.splats_) add_splat(x, y, set, sum);
+  for (const auto& [x, y, set, value] : block.light_splats_) add_light_splat(x, y, set, value.cast<double>());
+  for (const auto& [x, y, samples, rays] : block.records_) record_samples(x, y, samples, rays);
+  add_light_rays(block.light_rays_);
 }
 
 void Film::merge(const Film& other) {

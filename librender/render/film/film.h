@@ -4,6 +4,8 @@
 #include <render/film/filter.h>
 #include <render/film/image.h>
 
+#include <mc/run/archive.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -17,6 +19,9 @@ struct InvalidSample {
       y = 0;              ///< Row in the full image.
   std::uint32_t pass = 0, ///< Randomisation of the pixel's points; see PixelPoints.
       index = 0;          ///< Index of the point in the randomisation.
+
+  /// The location, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(x, y, pass, index); }
 };
 
 /// Statistics of the light path contributions of a pixel; see Film::add_light_splat.
@@ -33,6 +38,8 @@ struct LightSums {
     channel_largest = channel_largest.max(value);
   }
   void merge(const LightSums& other); ///< Adds the statistics of other contributions.
+  /// The sums, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(squares, largest, channel_largest); }
 };
 
 /// Statistics of a pixel's samples: spread, extremes and jumps. Plain sums need less memory than mc::Moments of
@@ -60,6 +67,10 @@ struct SampleSums {
     channel_smallest = channel_smallest.min(sample);
   }
   void merge(const SampleSums& other); ///< Adds the statistics of other samples.
+  /// The sums, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) {
+    a(count, sum, squares, largest, channel_sums, channel_squares, channel_largest, channel_smallest);
+  }
 
   /// Variance of the mean of independent samples, per channel; infinite for fewer than 2 samples.
   Eigen::Array3d variance_of_mean() const;
@@ -95,6 +106,8 @@ struct RelativeError {
   double value = mc::infinity<double>, ///< The estimate.
       bound = mc::infinity<double>;    ///< Upper bound with 95 % confidence.
 };
+
+class FilmBlock;
 
 /// Pixels over which errors are averaged.
 enum class ErrorScope {
@@ -136,8 +149,7 @@ class Film {
   /// Whether the film contains the pixel (x, y).
   bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
 
-  /// Adds the sum of `count` samples to a point set of a pixel. Different threads may write different pixels, but one
-  /// pixel at a time is written by one thread only.
+  /// Adds the sum of `count` samples to a point set of a pixel.
   void add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count);
 
   /// Adds splats to a point set of a pixel, from samples of this pixel or another. `sum` contains the sums of weighted
@@ -152,6 +164,15 @@ class Film {
   void add_light_path_count(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
   /// Adds to the number of rays of light paths.
   void add_light_rays(std::uint64_t rays) { light_rays_ += rays; }
+
+  /// Adds the samples of a block of a film with the same size and sets.
+  void add(const FilmBlock& block);
+  /// The sums, see mc/run/archive.h. A film is read into one with the same size, sets and options.
+  template <class Archive> void archive(Archive& a) {
+    using mc::fixed_size;
+    a(fixed_size(sums_), fixed_size(counts_), fixed_size(weights_), fixed_size(samples_), fixed_size(rays_),
+      fixed_size(light_), fixed_size(light_sums_), fixed_size(light_counts_), light_rays_);
+  }
 
   /// Adds the samples of another film with the same size, sets and options.
   void merge(const Film& other);

@@ -18,12 +18,12 @@ void SplatAccumulator::add(const Vec2& offset, const Spectrum& radiance) {
   }
 }
 
-void SplatAccumulator::flush_to(Film& film, int x, int y, int set) {
+void SplatAccumulator::flush_to(FilmBlock& block, int x, int y, int set) {
   auto sum = sums_.begin();
   const int reach = filter_.reach();
   for (int j = y - reach; j <= y + reach; ++j)
     for (int i = x - reach; i <= x + reach; ++i) {
-      if (film.contains(i, j)) film.add_splat(i, j, set, *sum);
+      if (block.contains(i, j)) block.add_splat(i, j, set, *sum);
       *sum++ = Eigen::Array4d::Zero();
     }
 }

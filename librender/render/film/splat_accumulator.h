@@ -1,7 +1,7 @@
 #pragma once
 /// Accumulation of splats.
 
-#include <render/film/film.h>
+#include <render/film/film_block.h>
 
 namespace render {
 
@@ -14,9 +14,9 @@ class SplatAccumulator {
   /// Adds a sample at an offset from the pixel's centre [pixels].
   void add(const Vec2& offset, const Spectrum& radiance);
 
-  /// Adds the splats since the last call to a point set of the film. The samples lie in the square of pixel (x, y).
+  /// Adds the splats since the last call to a point set of the block. The samples lie in the square of pixel (x, y).
   /// This pixel may be outside the film.
-  void flush_to(Film& film, int x, int y, int set);
+  void flush_to(FilmBlock& block, int x, int y, int set);
 
  private:
   const SplatFilter& filter_;

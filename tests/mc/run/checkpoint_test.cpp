@@ -76,13 +76,13 @@ TEST_F(CheckpointTest, AnotherRun_IsRefusedWithEveryFieldThatDiffers) {
   other[0].second = "2";
   other[2].second = "0.2";
   EXPECT_EQ(refusal(other), "'" + file() +
-                                "' is of another run: --seed is '1', not '2'; the build is '0.1', not '0.2'; ask for "
-                                "the same, or start anew");
+                                "' is of another run: --seed was '1' and is '2' now; the build was '0.1' and is "
+                                "'0.2' now; ask for the same, or start anew");
   other = identity;
   other.pop_back();
   other.push_back({"--size", "2x2\x1b[31m"});
-  EXPECT_THAT(refusal(other), AllOf(HasSubstr("the build is '0.1', not not stated"),
-                                    HasSubstr("--size is not stated, not '2x2?[31m'")));
+  EXPECT_THAT(refusal(other), AllOf(HasSubstr("the build was '0.1' and is not given now"),
+                                    HasSubstr("--size was not given and is '2x2?[31m' now")));
 }
 
 // A damaged bit, or a cut, at any place.

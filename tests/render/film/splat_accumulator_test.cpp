@@ -28,6 +28,7 @@ const std::array splat_rows = {SplatRow{"wide box", BoxFilter(Float(1.5)), 0.75}
 /// distance (x, y) from the pixel's centre. The squares extend one pixel beyond the filter's reach.
 PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
   Film film(1, 1, 4, {.splat = filter});
+  FilmBlock block(1, 1, 4);
   SplatAccumulator splat(filter);
   const int around = filter.reach() + 1;
   for (int y = -around; y <= around; ++y)
@@ -38,9 +39,10 @@ PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
           const Float px = Float(x) + offset[0], py = Float(y) + offset[1];
           splat.add(offset, Spectrum(1 + px * px + py, 5, px));
         }
-        splat.flush_to(film, x, y, set);
-        if (x == 0 && y == 0) film.add(0, 0, set, Eigen::Array3d::Zero(), static_cast<std::uint32_t>(n));
+        splat.flush_to(block, x, y, set);
+        if (x == 0 && y == 0) block.add(0, 0, set, Eigen::Array3d::Zero(), static_cast<std::uint32_t>(n));
       }
+  film.add(block);
   return film.estimate(0, 0);
 }
 
@@ -75,14 +77,16 @@ TEST(SplatAccumulator, SingleSet_IsUnbiased) {
   mc::Moments means;
   for (int i = 0; i < 20'000; ++i) {
     Film film(1, 1, 1, {.splat = filter});
+    FilmBlock block(1, 1, 1);
     SplatAccumulator splat(filter);
     for (int y = -2; y <= 2; ++y)
       for (int x = -2; x <= 2; ++x) {
         splat.add(Vec2(random.uniform<Float>() - Float(0.5), random.uniform<Float>() - Float(0.5)),
                   Spectrum::Constant(Float(x + y + 3)));
-        splat.flush_to(film, x, y, 0);
+        splat.flush_to(block, x, y, 0);
       }
-    film.add(0, 0, 0, Eigen::Array3d::Zero(), 1);
+    block.add(0, 0, 0, Eigen::Array3d::Zero(), 1);
+    film.add(block);
     means.add(film.estimate(0, 0).mean[0]);
   }
   EXPECT_NEAR(means.mean(), 3, 4 * means.std_error());

@@ -63,6 +63,8 @@ struct Check {
   /// One line; empty for a pass. The finding comes first: observed value, expected value and place. Remarks follow,
   /// each after "; ".
   std::string detail;
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(name, verdict, p, share, statistic, limit, fault, detail); }
 };
 
 /// A cell of the partition, or a discrete outcome, with a count far from the expected count.
@@ -73,6 +75,8 @@ struct WorstCell {
       expected = 0,           ///< expected number of samples
       z = 0;                  ///< (observed - expected) / sqrt(expected)
   std::string where;          ///< the centre of the cell as a point of the domain, or "outcome 3"
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(lo, hi, observed, expected, z, where); }
 };
 
 /// Observed and expected number of samples in a cell.
@@ -81,6 +85,8 @@ struct CellCount {
       hi{};                   ///< upper corner in chart coordinates
   double observed = 0,        ///< observed number of samples
       expected = 0;           ///< expected number of samples
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(lo, hi, observed, expected); }
 };
 
 /// Data for the maps and curves of a page.
@@ -92,8 +98,12 @@ struct PlotData {
   struct PValueAfter {
     std::uint64_t samples; ///< number of samples
     double p;              ///< family-wise adjusted p-value
+    /// The fields, see mc/run/archive.h.
+    template <class Archive> void archive(Archive& a) { a(samples, p); }
   };
   std::vector<PValueAfter> p_after; ///< after 1024, 2048, 4096, ... and after all samples
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(cells, outcomes, p_after); }
 };
 
 /// Returns a range of a chart coordinate in coordinates of the domain, for example "theta in [1.5, 3] deg".
@@ -109,12 +119,16 @@ struct ReportedValue {
   double value = 0,  ///< the estimate
       std_error = 0; ///< its standard error
   std::string where; ///< place or direction; may be empty
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(name, value, std_error, where); }
 };
 
 /// A law that was not tried, because the subject lacks what it needs.
 struct UntriedLaw {
   std::string name;   ///< name of the law
   std::string reason; ///< what is missing, for example "no invert"
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(name, reason); }
 };
 
 /// Amount of text that Report::to_string returns.
@@ -142,6 +156,12 @@ struct Report {
   std::optional<PlotData> evidence;   ///< present only if the options request it
   std::vector<ReportedValue> figures; ///< quantities without a verdict
   std::vector<UntriedLaw> untried;    ///< laws that were not tried
+
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) {
+    a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes,
+      worst, evidence, figures, untried);
+  }
 
   const Check* warning() const; ///< the first warning; null if there is none
   Verdict verdict() const;      ///< fail if any check fails, else inconclusive if any is inconclusive, else pass

@@ -28,6 +28,9 @@ struct Axis {
   double a = 0,                ///< first parameter of the function
       b = 1;                   ///< second parameter of the function
 
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& archive) { archive(name, scale, a, b); }
+
   /// Returns the quantity at v.
   double value(double v) const {
     switch (scale) {

@@ -1,0 +1,343 @@
+#include <render/render_job.h>
+
+#include <mc/core/error.h>
+#include <mc/sampler/owen_scramble.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace render {
+
+namespace {
+
+void check(const Scene& scene, const RenderOptions& options) {
+  mc::require(
+      finds_all_lights(scene, options.strategy) || options.aov.kind != Aov::radiance,
+      "render: the strategy {} finds lights by chance, which never meets the scene's point or directional light; "
+      "use nee or mis",
+      options.strategy.name);
+  mc::require(options.seconds || options.target_error || options.spp > 0,
+              "render: {} samples per pixel; at least 1 is needed", options.spp);
+  mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0",
+              options.seconds.value_or(0));
+  mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
+              options.target_error.value_or(0));
+  mc::require(!options.splat || !options.adaptive.value_or(false),
+              "render: splats need the same number of samples in every pixel; leave out splat or adaptive");
+  mc::require(!options.tiles || !options.splat,
+              "render: tiles and splats both share samples between pixels, and the error bar allows for one of "
+              "them; leave out one");
+  mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
+              options.max_depth);
+  mc::require(options.branches >= 1 && options.branches <= max_branches,
+              "render: {} branches of a path; they must be 1 to {}", options.branches, max_branches);
+}
+
+ImageExtent extent_of(const RenderOptions& options) {
+  const Crop c = options.crop.value_or(Crop{0, 0, options.width, options.height});
+  mc::require(c.x >= 0 && c.y >= 0 && c.width >= 1 && c.height >= 1 && c.x <= options.width - c.width &&
+                  c.y <= options.height - c.height,
+              "render: a crop of {}x{} pixels at ({}, {}) is not inside a picture of {}x{}", c.width, c.height, c.x,
+              c.y, options.width, options.height);
+  constexpr double most = 1 << 28; // the sums of a film then take about 100 GB
+  mc::require(double(c.width) * double(c.height) <= most,
+              "render: {}x{} pixels are more than {:.0f}; ask for a smaller picture or a part of it", c.width, c.height,
+              most);
+  return {options.width, options.height, c};
+}
+
+constexpr int point_sets = 2;
+constexpr double least_pilot = 16; ///< Least number of samples per pixel of a pilot.
+
+bool is_adaptive(const RenderOptions& options) {
+  return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
+}
+
+// None for a filter so narrow that pixels share nothing.
+std::optional<SplatFilter> splat_filter_for(const Scene& scene, const RenderOptions& options) {
+  if (!options.splat) return {};
+  const SplatFilter filter(scene.filter());
+  return filter.is_wide() ? std::optional(filter) : std::nullopt;
+}
+
+std::optional<LightTracer> light_tracer_for(const Scene& scene, const RenderOptions& options) {
+  if (options.aov.kind != Aov::radiance) return {};
+  if (options.max_depth >= 0 && options.max_depth < LightTracer::min_edges) return {};
+  return LightTracer::create(scene, options.strategy, Float(options.width) / Float(options.height));
+}
+
+// Number of points of a stratified set: all points of a pixel's set if their number is known in advance.
+std::uint32_t set_size_of(const RenderOptions& options) {
+  const bool known = !options.seconds && !options.target_error && !is_adaptive(options);
+  return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
+}
+
+// Rows without samples repeat the nearest row with samples. Returns the number of such rows.
+int repeat_rows(const Film& film, Image& image) {
+  std::vector<int> rendered;
+  for (int y = 0; y < image.height; ++y)
+    if (film.rays(0, y) > 0) rendered.push_back(y); // every sample takes at least one ray
+  if (rendered.empty()) return image.height;
+  for (int y = 0; y < image.height; ++y) {
+    const auto below = std::lower_bound(rendered.begin(), rendered.end(), y);
+    int nearest = below == rendered.end() ? rendered.back() : *below;
+    if (below != rendered.begin() && y - below[-1] <= std::abs(nearest - y)) nearest = below[-1];
+    for (int x = 0; x < image.width; ++x) image.at(x, y) = image.at(x, nearest);
+  }
+  return image.height - static_cast<int>(rendered.size());
+}
+
+constexpr std::uint64_t samples_of_unit = 1 << 17; ///< About, of a unit of pixels: less than a second.
+
+// Rows in the order of their units. Rows that write to common pixels stand in different turns, in an order that does not
+// depend on the crop. Within a turn, each row is in the middle of the widest gap, so that a cancelled first pass covers
+// the whole image.
+//   border : width of the border around the film.
+std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border) {
+  std::vector<std::uint32_t> order;
+  const std::size_t height = static_cast<std::size_t>(crop.height) + 2 * border, turns = 2 * border + 1;
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    const std::size_t first = (turn + turns - static_cast<std::size_t>(crop.y) % turns) % turns;
+    const std::size_t rows = (height + turns - 1 - first) / turns, size = std::bit_ceil(std::max(rows, 2ul));
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t row = mc::reverse_bits64(i) >> (64 - std::countr_zero(size));
+      if (row < rows) order.push_back(static_cast<std::uint32_t>(first + row * turns));
+    }
+  }
+  return order;
+}
+
+const Scene& checked(const Scene& scene, const RenderOptions& options) {
+  check(scene, options);
+  return scene;
+}
+
+} // namespace
+
+RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
+    : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(checked(scene, options), options)),
+      light_tracer_(light_tracer_for(scene, options)),
+      points_(options.sampler, options.seed, set_size_of(options)), path_{options.strategy, options.max_depth,
+                                                                          options.aov, options.branches},
+      pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer()),
+      row_order_(row_order(extent_.crop, border())), film_(new_film()), taken_(width() * height()),
+      next_taken_(taken_.size()), is_pilot_(is_adaptive(options)) {
+  if (options.tiles) tile_renderer_.emplace(scene, path_, points_, extent_, light_tracer());
+  if (light_tracer_)
+    light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
+}
+
+Film RenderJob::new_film() const {
+  const int sets = is_limited() ? point_sets : std::min(options_.spp, point_sets);
+  return {extent_.crop.width, extent_.crop.height, sets,
+          FilmOptions{.splat = splat_,
+                      .has_light_paths = light_tracer_.has_value(),
+                      .noise_area = options_.tiles ? PathReuseIntegrator<Scene>::noise_area : 1,
+                      .independent_samples = options_.sampler == PixelSampler::independent}};
+}
+
+double RenderJob::elapsed() const {
+  return earlier_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+double RenderJob::wanted() const {
+  if (mean_ == 0 || !is_limited()) return options_.spp;
+  const double by_time = options_.seconds ? mean_ * *options_.seconds / elapsed() : mc::infinity<double>;
+  return options_.target_error ? std::min(by_time, wanted_by_error()) : by_time;
+}
+
+double RenderJob::wanted_by_error() const {
+  const double by_error = mean_ * mc::sqr(error_.bound / *options_.target_error);
+  const bool is_sure = mean_ >= least_pilot && outlier_dominated_ <= max_outlier_dominated;
+  return is_sure ? by_error : std::max(by_error, 2 * mean_);
+}
+
+// Doubled, but at most `wanted`. If `wanted` is an estimate, the pass covers about three quarters of the rest.
+double RenderJob::end_of_pass(double wanted) const {
+  if (mean_ == 0) return film_.sets();
+  double rest = wanted - mean_;
+  if (is_limited() && !is_pilot_) rest = std::max({0.75 * rest, 0.02 * mean_, 1.0});
+  return mean_ + std::min(rest, mean_);
+}
+
+std::size_t RenderJob::next_stage() {
+  units_ = 0;
+  while (units_ == 0) switch (stage_) {
+    case Stage::none:
+      if (!begin_pass()) return 0;
+      stage_ = Stage::light_paths;
+      // Before the first pixels only a few light paths are traced, so that the pixels start soon. Any number of light
+      // paths is unbiased.
+      units_ =
+          begin_light_paths(mean_ == 0 ? std::min(pass_.all_light, LightTracingPass::batch_size) : pass_.all_light);
+      break;
+    case Stage::light_paths:
+      count_light_paths();
+      stage_ = Stage::pixels;
+      units_ = begin_pixels();
+      break;
+    case Stage::pixels:
+      stage_ = Stage::more_light_paths;
+      units_ = begin_light_paths(pass_.all_light);
+      break;
+    case Stage::more_light_paths:
+      count_light_paths();
+      end_pass();
+      stage_ = Stage::none;
+    }
+  return units_;
+}
+
+// Returns false at the end of the render.
+bool RenderJob::begin_pass() {
+  const double wanted = this->wanted();
+  if (!(mean_ < wanted) || is_out_of_time()) return false;
+  if (is_pilot_ && mean_ >= least_pilot && mean_ >= wanted / 6) { // passes double, so the pilot is about a quarter
+    plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_scope, options_.threads,
+                          tile_renderer_ ? tile_renderer_->tiling() : Tiling{});
+    is_pilot_ = false;
+  }
+  pass_ = {.mean = end_of_pass(wanted),
+           .wanted = wanted,
+           .light_done = light_done_,
+           .light_counted = light_done_,
+           .stats = {}};
+  if (light_tracing_pass_) pass_.all_light = light_tracing_pass_->path_count(pass_.mean * plan_.light_path_scale);
+  next_taken_ = taken_;
+  if (splat_) pass_film_ = new_film();
+  return true;
+}
+
+std::size_t RenderJob::begin_light_paths(std::uint64_t to) {
+  pass_.light_begin = pass_.light_done;
+  const std::uint64_t paths = to > pass_.light_begin ? to - pass_.light_begin : 0;
+  pass_.light_end = std::max(to, pass_.light_begin);
+  return (paths + LightTracingPass::block_size - 1) / LightTracingPass::block_size;
+}
+
+// A unit has whole rows in the first pass, of which cancellation leaves complete rows.
+std::size_t RenderJob::begin_pixels() {
+  const double samples = std::max((pass_.mean - mean_) * (is_pilot_ || plan_.rates.empty() ? 1 : 4), 1.0);
+  const auto columns = static_cast<std::uint64_t>(std::max(double(samples_of_unit) / samples, 2.0));
+  const std::uint64_t side = PathReuseIntegrator<Scene>::side;
+  pass_.columns = mean_ == 0 ? width() + side : (columns + side - 1) / side * side;
+  pass_.pixel_units = height() * ((width() + side + pass_.columns - 1) / pass_.columns);
+  return pass_.pixel_units;
+}
+
+// Parts end between tiles.
+RenderJob::RowPart RenderJob::row_part(std::size_t unit) const {
+  const std::size_t parts = pass_.pixel_units / height(), part = unit % parts;
+  const std::size_t cut = tile_renderer_ ? static_cast<std::size_t>(tile_renderer_->tiling().x) : 0;
+  const auto at = [&](std::size_t i) { return std::min(std::max(i * pass_.columns, cut) - cut, width()); };
+  return {row_order_[unit / parts], at(part), at(part + 1)};
+}
+
+std::optional<RenderJob::Result> RenderJob::compute(std::size_t unit) const {
+  Result result{{film_.width(), film_.height(), film_.sets()}, {}};
+  if (stage_ != Stage::pixels) {
+    const std::uint64_t first = pass_.light_begin + unit * LightTracingPass::block_size;
+    result.stats = light_tracing_pass_->trace(first, std::min(first + LightTracingPass::block_size, pass_.light_end),
+                                              result.block);
+    return result;
+  }
+  const RowPart part = row_part(unit);
+  const std::size_t first = part.row * width() + part.begin, count = part.end - part.begin;
+  std::vector<std::uint32_t> to(count);
+  for (std::size_t i = 0; i < count; ++i) to[i] = samples_at_end(first + i);
+  const std::span<const std::uint32_t> from = std::span(taken_).subspan(first, count);
+  const int y = static_cast<int>(part.row) - pixel_renderer_.border(),
+            x = static_cast<int>(part.begin) - pixel_renderer_.border();
+  result.stats = tile_renderer_ ? tile_renderer_->render_row(y, x, from, to, result.block)
+                                : pixel_renderer_.render_row(y, x, from, to, result.block);
+  return result;
+}
+
+void RenderJob::absorb(std::size_t unit, Result result) {
+  Film& film = pass_film_ ? *pass_film_ : film_;
+  film.add(result.block);
+  pass_.stats.merge(result.stats);
+  if (stage_ == Stage::pixels) {
+    const RowPart part = row_part(unit);
+    for (std::size_t i = part.row * width() + part.begin; i < part.row * width() + part.end; ++i)
+      next_taken_[i] = samples_at_end(i);
+    ++pass_.pixels_done;
+    report_progress();
+    return;
+  }
+  pass_.light_done = std::min(pass_.light_done + LightTracingPass::block_size, pass_.light_end);
+  if ((pass_.light_done - pass_.light_begin) % LightTracingPass::batch_size == 0) count_light_paths();
+}
+
+// Tells the film of the light paths since the last call.
+void RenderJob::count_light_paths() {
+  if (pass_.light_done > pass_.light_counted)
+    light_tracing_pass_->count_paths(pass_.light_counted, pass_.light_done, pass_film_ ? *pass_film_ : film_);
+  pass_.light_counted = pass_.light_done;
+}
+
+// Ends a pass, finished or not. With splats, an unfinished pass is discarded. The exception is the first pass with two
+// sets: they correct for missing splats of neighbours.
+void RenderJob::end_pass() {
+  const bool is_whole = pass_.pixels_done == pass_.pixel_units;
+  if (pass_film_ && !is_whole && (mean_ > 0 || film_.sets() == 1)) {
+    pass_film_.reset();
+    return;
+  }
+  total_.merge(pass_.stats);
+  light_done_ = pass_.light_done;
+  taken_ = next_taken_;
+  if (pass_film_) film_.merge(*pass_film_);
+  pass_film_.reset();
+  if (!is_whole) return;
+  mean_ = pass_.mean;
+  if (options_.target_error || options_.progress) estimate_error();
+}
+
+void RenderJob::estimate_error() {
+  error_ = film_.relative_errors().of(options_.error_scope);
+  outlier_dominated_ = film_.outlier_dominated();
+  const bool is_there = options_.target_error && error_.value <= *options_.target_error;
+  if (is_there && mean_ >= least_pilot && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0)
+    unreliable_target_spp_ = mean_;
+}
+
+void RenderJob::report_progress() const {
+  if (!options_.progress) return;
+  const double share = double(pass_.pixels_done) / double(pass_.pixel_units);
+  const double fraction =
+      options_.seconds ? elapsed() / *options_.seconds : (mean_ + share * (pass_.mean - mean_)) / pass_.wanted;
+  options_.progress({std::min(fraction, 1.0), total_.samples + pass_.stats.samples, total_.rays, elapsed(),
+                     error_.value, outlier_dominated_});
+}
+
+RenderResult RenderJob::result(bool is_done) {
+  if (stage_ != Stage::none) {
+    if (stage_ != Stage::pixels) count_light_paths();
+    end_pass();
+    stage_ = Stage::none;
+  }
+  RenderResult result;
+  result.image = film_.image();
+  result.partial = !is_done;
+  if (result.partial && mean_ == 0) result.missing_rows = repeat_rows(film_, result.image);
+  result.samples = total_.samples;
+  result.rays = total_.rays;
+  result.spp = double(total_.samples) / double(taken_.size());
+  result.estimates = result.image.estimates =
+      std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
+  result.seconds = elapsed();
+  result.cpu_seconds = cpu_seconds();
+  const RelativeErrors errors = film_.relative_errors(result.image);
+  result.relative_error = errors.image.value;
+  result.worst_error = errors.worst_block.value;
+  result.outlier_dominated = film_.outlier_dominated();
+  result.unreliable_target_spp = unreliable_target_spp_;
+  result.invalid = total_.invalid;
+  result.first_invalid = total_.first_invalid;
+  result.out_of_time = options_.target_error && !result.partial && mean_ < wanted_by_error();
+  return result;
+}
+
+} // namespace render
