@@ -2,6 +2,7 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <input/points_file.h>
+#include <options/checkpoint_options.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
 #include <options/files.h>
@@ -22,11 +23,11 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <deque>
 #include <filesystem>
+#include <memory>
 
 namespace carlo {
 
@@ -44,6 +45,7 @@ struct ConvergeCommandOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   std::string output = "out/convergence", report;
+  CheckpointFiles checkpoint;
   std::string command;
 };
 
@@ -102,17 +104,18 @@ struct ConvergeRun {
 
 ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>& targets,
                         const std::vector<SamplingMethod>& chosen, const ConvergeCommandOptions& o,
-                        const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+                        const std::filesystem::path& folder, const std::atomic<bool>* cancel, ReplicateLog& log) {
   ConvergeRun run;
   ProgressLine progress;
   bool can_draw = true;
   for (std::size_t i = 0; i < targets.size() && !run.interrupted; ++i) {
-    MeasureOptions m{
-        .max_n = o.integral.max_n, .replicates = o.replicates, .seed = o.seed, .threads = o.threads, .cancel = cancel};
-    const double gone = std::chrono::duration<double>(Clock::now() - start).count();
-    if (o.time) m.seconds = std::max(1e-3, *o.time - gone) / static_cast<double>(targets.size() - i);
+    MeasureOptions m{.max_n = o.integral.max_n,
+                     .replicates = o.replicates,
+                     .seed = o.seed,
+                     .threads = o.threads,
+                     .cancel = cancel,
+                     .log = &log};
+    if (o.time) m.seconds = std::max(1e-3, *o.time - log.elapsed()) / static_cast<double>(targets.size() - i);
     m.progress = [&](double done, const std::string& where) {
       progress.show((static_cast<double>(i) + done) / static_cast<double>(targets.size()), where);
     };
@@ -145,7 +148,7 @@ std::vector<Option> rows(ConvergeCommandOptions& o) {
                     {"index.html"}),
   };
   common.options.insert(common.options.end(), own.begin(), own.end());
-  const OptionGroup expert{
+  OptionGroup expert{
       expert_options,
       {
           input_file({"--points-file", "FILE", &o.points,
@@ -156,7 +159,10 @@ std::vector<Option> rows(ConvergeCommandOptions& o) {
           {"--time", "SECONDS", &o.time, "Wall-clock time for everything; larger N are left out."},
           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+          resume_row(o.checkpoint),
       }};
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  expert.options.insert(expert.options.end(), files.begin(), files.end());
   return in_groups({common, expression_group(o.integral.expression), foreign_group(o.integral.foreign),
                     scene_group(o.scene), expert});
 }
@@ -193,6 +199,11 @@ void refuse_inputs(const ConvergeCommandOptions& o, const std::vector<IntegralTa
   require_distinct_files(files);
 }
 
+// The checkpoints of the run; null where none are asked for.
+std::unique_ptr<mc::Checkpoint> checkpoint_of(ConvergeCommandOptions o) {
+  return open_checkpoint(o.checkpoint, measurement_identity(rows(o), o.integral.integrands));
+}
+
 int run_converge_scene(const ConvergeCommandOptions& o) {
   mc::require(o.points.empty(), "converge: --points-file is not for scenes");
   refuse_integral_options(o.integral);
@@ -201,6 +212,7 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   refuse_inputs(o, {target});
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
+  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
   const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                               .samplers = o.samplers,
                                                               .all = o.all,
@@ -208,9 +220,11 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
                                                               .seconds = o.time.value_or(0),
                                                               .seed = o.seed,
                                                               .threads = o.threads,
-                                                              .cancel = interrupt.flag()});
+                                                              .cancel = interrupt.flag(),
+                                                              .checkpoint = checkpoint.get()});
   const bool interrupted = pictures.measurement.interrupted;
   if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
+  if (interrupted) print_how_to_resume(o.checkpoint);
   if (pictures.methods.empty()) return exit_interrupted;
   ResultWriter results;
   write(results, target, pictures.measurement, o, folder, true, &pictures);
@@ -243,8 +257,12 @@ int run_converge(const ConvergeCommandOptions& o) {
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
 
+  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
+  ReplicateLog log(checkpoint.get());
   ResultWriter results;
-  const ConvergeRun run = measure_all(results, targets, chosen, o, folder, interrupt.flag());
+  const ConvergeRun run = measure_all(results, targets, chosen, o, folder, interrupt.flag(), log);
+  if (run.interrupted) print_how_to_resume(o.checkpoint); // the replicates under way are saved
+  else log.save();
   std::string slopes;
   std::vector<PageEntry> measured;
   bool doubted = false;

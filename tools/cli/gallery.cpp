@@ -1,5 +1,7 @@
 #include <gallery/contact_sheet.h>
 #include <gallery/page.h>
+#include <input/file_hash.h>
+#include <options/checkpoint_options.h>
 #include <options/files.h>
 #include <options/subcommand.h>
 #include <picture/picture.h>
@@ -18,6 +20,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 
@@ -35,6 +38,7 @@ struct GalleryCommandOptions {
   std::uint64_t seed = 0;
   int thumbnail_side = 64; ///< pixels
   int threads = 0;
+  CheckpointFiles checkpoint;
   std::string command;
 };
 
@@ -47,6 +51,17 @@ struct SceneJob {
 };
 
 std::vector<Option> rows(GalleryCommandOptions& o) {
+  OptionGroup expert{expert_options,
+                     {
+                         {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
+                         {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+                         {"--thumbnails", "PIXELS", &o.thumbnail_side,
+                          "Width of the pictures in sheet.png. From 256 on each has its name below it."},
+                         {"--table", "", &o.table, "Print which scene requires which feature as Markdown, and stop."},
+                         resume_row(o.checkpoint),
+                     }};
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  expert.options.insert(expert.options.end(), files.begin(), files.end());
   const Exclusion counted{"--spp", "--time and --target-error choose the number of samples"};
   return in_groups({
       {common_options,
@@ -66,14 +81,7 @@ std::vector<Option> rows(GalleryCommandOptions& o) {
            {"--scale", "RATIO", &o.scale, "Size of the pictures relative to the scenes' own, in (0, 4]."},
            {"--list", "", &o.list, "List the scenes, and stop."},
        }},
-      {expert_options,
-       {
-           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
-           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
-           {"--thumbnails", "PIXELS", &o.thumbnail_side,
-            "Width of the pictures in sheet.png. From 256 on each has its name below it."},
-           {"--table", "", &o.table, "Print which scene requires which feature as Markdown, and stop."},
-       }},
+      expert,
   });
 }
 
@@ -148,10 +156,18 @@ class GalleryRun {
       work_ += jobs.back().work;
     }
     refuse_inputs(jobs);
+    const std::unique_ptr<mc::Checkpoint> checkpoint = open_checkpoint(options_.checkpoint, identity_of(jobs));
+    const mc::Checkpoint::Section section(checkpoint.get(), "gallery",
+                                          [this](auto& a) { a(rendered_, thumbnails_, strategies_); });
+    for (const RenderedScene& r : rendered_) print_line(r);
+    require_pictures();
     for (SceneJob& job : jobs) {
-      if (!render_one(job)) break;
+      job.settings.checkpoint = checkpoint.get();
+      if (done_scenes_ == rendered_.size() && !render_one(job)) break;
+      ++done_scenes_;
       done_ += job.work;
     }
+    if (checkpoint && rendered_.size() == scene_count_) checkpoint->save_and_wait(); // else a render saved
     progress_.clear();
   }
 
@@ -170,6 +186,40 @@ class GalleryRun {
     for (const SceneJob& job : jobs) inputs.insert(job.file.files.begin(), job.file.files.end());
     for (const std::string& input : inputs) files.push_back({input, "a file of a scene"});
     require_distinct_files(files);
+  }
+
+  // The options, and the scenes with the bytes of their files.
+  mc::RunIdentity identity_of(const std::vector<SceneJob>& jobs) const {
+    GalleryCommandOptions options = options_;
+    mc::RunIdentity identity = run_identity(rows(options), {"NAME", "--threads", "--resume", "--every"});
+    std::vector<std::string_view> names;
+    std::set<std::string> files;
+    for (const SceneJob& job : jobs) {
+      names.push_back(job.scene->name);
+      files.insert(job.file.files.begin(), job.file.files.end());
+    }
+    identity.emplace_back("the scenes", fmt::format("{}", fmt::join(names, " ")));
+    identity.emplace_back("the content of the scenes' files", hash_of_files(files));
+    return identity;
+  }
+
+  // Throws Error where a picture of the run behind a checkpoint is not in the folder.
+  void require_pictures() const {
+    for (const RenderedScene& r : rendered_)
+      for (const char* extension : {".exr", ".png"}) {
+        const std::string picture = (folder_ / r.scene->name).string() + extension;
+        mc::require(std::filesystem::exists(picture),
+                    "--resume: '{}' is missing, which the run before wrote; name its folder by -o", picture);
+      }
+  }
+
+  void print_line(const RenderedScene& r) {
+    progress_.clear();
+    const std::string error =
+        std::isfinite(r.relative_error) ? fmt::format("{:.2f} %", 100 * r.relative_error) : std::string("unknown");
+    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}, error {}\n", r.scene->name, r.width, r.height, r.spp,
+               format_seconds(r.seconds), error);
+    std::fflush(stdout);
   }
 
   // Returns false when interrupted; an unfinished scene is not kept.
@@ -198,12 +248,7 @@ class GalleryRun {
     r.strategies = strategies(a);
     if (cancel_->load()) return false;
     keep_thumbnail(a, result.image);
-    progress_.clear();
-    const std::string error =
-        std::isfinite(r.relative_error) ? fmt::format("{:.2f} %", 100 * r.relative_error) : std::string("unknown");
-    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}, error {}\n", title, r.width, r.height, r.spp,
-               format_seconds(r.seconds), error);
-    std::fflush(stdout);
+    print_line(r);
     rendered_.push_back(std::move(r));
     return true;
   }
@@ -227,7 +272,7 @@ class GalleryRun {
   const std::atomic<bool>* cancel_;
   ProgressLine progress_;
   ResultWriter results_;
-  std::size_t scene_count_ = 0;
+  std::size_t scene_count_ = 0, done_scenes_ = 0;
   double work_ = 0, done_ = 0;
   std::vector<RenderedScene> rendered_;
   std::vector<render::Image> thumbnails_;
@@ -274,6 +319,7 @@ int run_gallery(const GalleryCommandOptions& o) {
   run.results().finish();
   if (finished == scenes.size()) return exit_ok;
   fmt::print("interrupted: {} of {} scenes were finished\n", finished, scenes.size());
+  print_how_to_resume(o.checkpoint);
   return exit_interrupted;
 }
 

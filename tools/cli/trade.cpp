@@ -2,6 +2,7 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <converge/trade.h>
+#include <options/checkpoint_options.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
 #include <options/integral_options.h>
@@ -25,6 +26,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 namespace carlo {
 
@@ -41,6 +43,7 @@ struct TradeCommandOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   std::string output = "out/trade", report;
+  CheckpointFiles checkpoint;
   std::string command;
 };
 
@@ -213,13 +216,15 @@ std::vector<Option> rows(TradeCommandOptions& o) {
   OptionGroup scene = scene_group(o.scene);
   scene.options.push_back({"--samplers", "NAMES", &o.samplers,
                            "Point sets of the pixels, comma-separated, see carlo render. Default: all."});
-  const OptionGroup expert{
-      expert_options,
-      {
-          {"--time", "SECONDS", &o.time, "Wall-clock time for everything; larger N are left out."},
-          {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
-          {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
-      }};
+  OptionGroup expert{expert_options,
+                     {
+                         {"--time", "SECONDS", &o.time, "Wall-clock time for everything; larger N are left out."},
+                         {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
+                         {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+                         resume_row(o.checkpoint),
+                     }};
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  expert.options.insert(expert.options.end(), files.begin(), files.end());
   return in_groups({common, expression_group(o.integral.expression), foreign_group(o.integral.foreign), scene, expert});
 }
 
@@ -317,20 +322,28 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
   return reached && m.truth_warning.empty() ? exit_ok : exit_failed;
 }
 
+// The checkpoints of the run; null where none are asked for.
+std::unique_ptr<mc::Checkpoint> checkpoint_of(TradeCommandOptions o) {
+  return open_checkpoint(o.checkpoint, measurement_identity(rows(o), o.integral.integrands));
+}
+
 int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const IntegralTarget target = scene_target(o.integral.integrands[0]);
   const OutputFolders folders(o);
+  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
   const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                               .samplers = o.samplers,
                                                               .for_trade = true,
                                                               .seconds = o.time.value_or(0),
                                                               .seed = o.seed,
                                                               .threads = o.threads,
-                                                              .cancel = interrupt.flag()});
+                                                              .cancel = interrupt.flag(),
+                                                              .checkpoint = checkpoint.get()});
   const Measurement& m = pictures.measurement;
   if (m.interrupted) fmt::print("{}\n", interruption_summary(pictures));
+  if (m.interrupted) print_how_to_resume(o.checkpoint);
   if (pictures.methods.empty()) return exit_interrupted;
   if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
   fmt::print("{}: {} methods, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
@@ -369,8 +382,13 @@ int run_trade(const TradeCommandOptions& o) {
   if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
   if (!seconds.empty()) options.cpu_goal = *std::max_element(seconds.begin(), seconds.end());
   options.progress = [&](double done, const std::string& where) { progress.show(done, where); };
+  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
+  ReplicateLog log(checkpoint.get());
+  options.log = &log;
   Measurement m = measure_convergence(target, chosen, options);
   progress.clear();
+  if (m.interrupted) print_how_to_resume(o.checkpoint); // the replicates under way are saved
+  else log.save();
   if (m.curves.empty()) {
     fmt::print("interrupted: 0 of {} methods were measured, too few to choose from\n", chosen.size());
     return exit_interrupted;

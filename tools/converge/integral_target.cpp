@@ -2,30 +2,48 @@
 #include <process/cpu_time.h>
 
 #include <mc/core/error.h>
-#include <mc/core/parallel.h>
 #include <mc/random/hash.h>
+#include <mc/run/job.h>
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace carlo {
 
 namespace {
 
-// estimate(seed, seconds) adds seconds of other processes.
-template <class Estimator> Replicates replicates(const ReplicateTask& task, const Estimator& estimate) {
-  Replicates r;
-  for (auto* numbers : {&r.values, &r.calls, &r.seconds}) numbers->resize(task.count);
-  mc::parallel_for(task.count, task.threads, [&](std::size_t i) {
-    if (task.cancel && *task.cancel) return;
+/// Replicates of a task as an mc::Job: each is a unit. estimate(seed, seconds) adds seconds of other processes.
+template <class Estimator> struct ReplicateJob {
+  struct Result {
+    double value = 0, calls = 0, seconds = 0;
+    template <class Archive> void archive(Archive& a) { a(value, calls, seconds); }
+  };
+
+  const ReplicateTask& task;
+  const Estimator& estimate;
+  Replicates replicates = {};
+  bool has_begun = false;
+
+  std::size_t next_stage() { return std::exchange(has_begun, true) ? 0 : task.count; }
+  std::optional<Result> compute(std::size_t i) const {
     const double start = thread_cpu_seconds();
     double elsewhere = 0;
     const MethodEstimate s = estimate(mc::hash(task.seed, task.n, task.first + i), elsewhere);
-    r.values[i] = s.value;
-    r.calls[i] = s.calls;
-    r.seconds[i] = thread_cpu_seconds() - start + elsewhere;
-  });
-  return r;
+    return Result{s.value, s.calls, thread_cpu_seconds() - start + elsewhere};
+  }
+  void absorb(std::size_t, const Result& r) {
+    replicates.values.push_back(r.value);
+    replicates.calls.push_back(r.calls);
+    replicates.seconds.push_back(r.seconds);
+  }
+  template <class Archive> void archive(Archive& a) { a(has_begun, replicates); }
+};
+
+template <class Estimator> Replicates replicates(const ReplicateTask& task, const Estimator& estimate) {
+  ReplicateJob<Estimator> job{task, estimate};
+  mc::run_job(job, {task.threads, task.cancel, task.checkpoint});
+  return std::move(job.replicates);
 }
 
 } // namespace

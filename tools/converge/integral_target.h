@@ -5,6 +5,8 @@
 #include <integrands/unit_cube_integral.h>
 #include <sampling/sampling_methods.h>
 
+#include <mc/run/checkpoint.h>
+
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -16,6 +18,7 @@ namespace carlo {
 /// Independent estimates of one integral.
 struct Replicates {
   std::vector<double> values, calls, seconds; ///< CPU seconds of each estimate
+  template <class Archive> void archive(Archive& a) { a(values, calls, seconds); }
 };
 
 /// Replicates first, first + 1, ... of a method with about n evaluations each.
@@ -24,6 +27,7 @@ struct ReplicateTask {
   std::uint64_t n = 0, seed = 1, first = 0, count = 0;
   int threads = 0;                           ///< 0: all threads of the machine
   const std::atomic<bool>* cancel = nullptr; ///< when it becomes true, the returned replicates are invalid
+  mc::Checkpoint* checkpoint = nullptr;      ///< saves finished replicates, and goes on from them
 };
 
 /// An integral and the function that runs its replicates: in this process, or in a separate one for a plugin's

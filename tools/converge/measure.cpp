@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <span>
 #include <tuple>
@@ -17,8 +16,6 @@
 namespace carlo {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_replicates = 64, most_replicates = 512, reference_replicates = 128;
 constexpr double rounding = 1e-12; // rounding error of sums, relative to the mean of |f|
@@ -89,7 +86,7 @@ void append(Replicates& all, const Replicates& more) {
 Replicates replicate(const IntegralTarget& target, const SamplingMethod& method, std::uint64_t n,
                      const std::vector<Replicates>& before, const MeasureOptions& o) {
   const auto run = [&](std::uint64_t first, std::uint64_t count) {
-    return target.run({&method, n, o.seed, first, count, o.threads, o.cancel});
+    return o.log->run(target, {&method, n, o.seed, first, count, o.threads, o.cancel});
   };
   if (o.replicates > 0) return run(0, static_cast<std::uint64_t>(o.replicates));
   Replicates all = run(0, first_replicates);
@@ -135,8 +132,8 @@ ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& m
   curve.method = &method;
   if (method.points_file.empty())
     curve.theory = theoretical_rate(method.name, target.integral.smoothness, target.integral.dim);
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  const double start = o.log->elapsed();
+  const auto elapsed = [&] { return o.log->elapsed() - start; };
   double last = 0;
   for (std::uint64_t n = 16; n <= std::min(o.max_n, method.max_calls); n *= 2) {
     if (n < method.min_calls) continue;
@@ -215,7 +212,7 @@ struct IntegrandProbe {
 IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOptions& o) {
   const std::uint64_t points = std::min<std::uint64_t>(4 * o.max_n, 1 << 14); // less than the largest N costs
   const Replicates r =
-      target.run({&sampling_method("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
+      o.log->run(target, {&sampling_method("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
     sizes.push_back(std::abs(x));
@@ -260,7 +257,7 @@ std::pair<double, double> estimate_truth(const IntegralTarget& target, const std
   std::vector<double> values = last.values;
   try {
     const Replicates r =
-        target.run({best->method, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
+        o.log->run(target, {best->method, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
     if (!*o.cancel) values = r.values;
   } catch (const mc::Error&) {
     // Other points than before met an error: then the truth is the mean of the replicates behind the curve.
@@ -351,7 +348,9 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
   MeasureOptions o = options;
   if (!o.cancel) o.cancel = &never;
   Measurement m;
-  const auto start = Clock::now();
+  ReplicateLog own_log(nullptr);
+  if (!o.log) o.log = &own_log;
+  const double start = o.log->elapsed();
   const IntegrandProbe probe = probe_integrand(target, o);
   m.magnitude = probe.magnitude;
   const double tail_index = probe.fit_shape > 0 ? 1 / probe.fit_shape : HUGE_VAL;
@@ -359,7 +358,7 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
   if (m.magnitude == 0) refuse_underflow(target.integral);
   const bool known = std::isfinite(target.integral.truth);
   for (std::size_t i = 0; i < methods.size(); ++i) {
-    const double gone = std::chrono::duration<double>(Clock::now() - start).count();
+    const double gone = o.log->elapsed() - start;
     const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(methods.size() - i) : 0;
     const auto progress = [&](std::uint64_t n) {
       // Work grows with N: the last N takes half of a curve's time.

@@ -1,7 +1,7 @@
 #pragma once
 /// Measures the error of several methods against evaluations and seconds, for one integral.
 
-#include <converge/integral_target.h>
+#include <converge/replicate_log.h>
 #include <sampling/theory.h>
 
 #include <mc/stats/power_law.h>
@@ -21,6 +21,7 @@ struct MeasureOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
+  ReplicateLog* log = nullptr; ///< replicates and clock of the run; null: a log of this measurement
   /// Called after each N with the finished share of the work and the current method and N.
   std::function<void(double done, const std::string& where)> progress = {};
 };

@@ -41,6 +41,7 @@ struct PictureSeries {
   double spp = 0;
   std::vector<Image> images = {};
   Replicates replicates = {};
+  template <class Archive> void archive(Archive& a) { a(spp, images, replicates); }
 };
 
 /// The picture that all others are compared with.
@@ -49,6 +50,7 @@ struct ReferencePicture {
   double spp = 0;
   double noise = 0;        ///< relmse
   double relmse_floor = 0; ///< added to squared pixels in the denominator of relmse, the same for every picture
+  template <class Archive> void archive(Archive& a) { a(image, spp, noise, relmse_floor); }
 };
 
 // Squared difference of two images at one pixel, relative to the reference, averaged over channels.
@@ -216,13 +218,15 @@ class PictureSession {
       : file_(file), methods_(methods), options_(options), curves_(methods.size()) {}
 
   PictureMeasurement run() {
+    const mc::Checkpoint::Section section(options_.checkpoint, "pictures", [this](auto& a) { archive(a); });
     bool stopped = false;
-    for (spp_ = 4; spp_ <= options_.max_spp && is_time_left(); spp_ *= 2) {
-      const double before = elapsed();
+    for (; spp_ <= options_.max_spp && (is_within_level() || is_time_left()); spp_ *= 2) {
+      if (!is_within_level()) begin_level();
       stopped = !measure_level();
       if (stopped) break;
-      last_ = elapsed() - before;
+      last_ = elapsed() - level_begin_;
     }
+    if (options_.checkpoint && !stopped) options_.checkpoint->save_and_wait(); // when cancelled, a render saved
     PictureMeasurement result = collect();
     result.measurement.interrupted = stopped;
     return result;
@@ -231,7 +235,21 @@ class PictureSession {
  private:
   using Clock = std::chrono::steady_clock;
 
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  enum class Phase : std::uint8_t { begin, reference, end };
+
+  template <class Archive> void archive(Archive& a) {
+    double seconds = elapsed();
+    a(seconds, level_, last_level_, wanted_, phase_, reference_, references_, spp_, last_, level_begin_);
+    for (ConvergenceCurve& curve : curves_) a(curve.errors, curve.replicates);
+    if constexpr (Archive::is_reader) {
+      earlier_ = seconds;
+      start_ = Clock::now();
+    }
+  }
+
+  // Including the time of the run behind a checkpoint.
+  double elapsed() const { return earlier_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
+  bool is_within_level() const { return !wanted_.empty(); }
   // Twice the samples take twice as long; the first level is always measured.
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
   bool is_due(const RenderMethod& method) const { return !is_adaptive(method.allocation) || spp_ >= 32; }
@@ -240,53 +258,65 @@ class PictureSession {
     if (options_.progress) options_.progress((before + share * spp_) / all, where);
   }
 
-  // Renders every method with the samples of this level, and refines the reference as needed. When cancelled, returns
-  // false and discards the level.
-  bool measure_level() {
-    std::vector<PictureSeries> level(methods_.size(), PictureSeries{double(spp_)});
-    std::vector<int> wanted(methods_.size());
+  void begin_level() {
+    level_begin_ = elapsed();
+    level_.assign(methods_.size(), PictureSeries{double(spp_)});
+    wanted_.assign(methods_.size(), 0);
     for (std::size_t i = 0; i < methods_.size(); ++i)
-      if (is_due(methods_[i])) wanted[i] = options_.replicates > 0 ? options_.replicates : first_pictures;
-    if (!render_missing(level, wanted) || !refine_reference(level)) return false;
-    if (options_.replicates == 0) {
-      for (std::size_t i = 0; i < methods_.size(); ++i)
-        if (wanted[i] > 0) wanted[i] = pictures_needed(level[i], reference_);
-      if (!render_missing(level, wanted)) return false;
+      if (is_due(methods_[i])) wanted_[i] = options_.replicates > 0 ? options_.replicates : first_pictures;
+    phase_ = Phase::begin;
+  }
+
+  // Renders every method with the samples of this level, and refines the reference as needed. When cancelled, returns
+  // false: the level is not among the results.
+  bool measure_level() {
+    if (phase_ == Phase::begin) {
+      if (!render_missing()) return false;
+      phase_ = Phase::reference;
     }
+    if (phase_ == Phase::reference) {
+      if (!refine_reference()) return false;
+      if (options_.replicates == 0)
+        for (std::size_t i = 0; i < methods_.size(); ++i)
+          if (wanted_[i] > 0) wanted_[i] = pictures_needed(level_[i], reference_);
+      phase_ = Phase::end;
+    }
+    if (!render_missing()) return false;
     for (std::size_t i = 0; i < methods_.size(); ++i) {
-      if (wanted[i] == 0) continue;
-      for (const Image& image : level[i].images)
-        level[i].replicates.values.push_back(std::sqrt(noise(image, reference_.relmse_floor)));
-      curves_[i].errors.push_back(error_of(level[i], reference_));
-      curves_[i].replicates.push_back(level[i].replicates);
+      if (wanted_[i] == 0) continue;
+      for (const Image& image : level_[i].images)
+        level_[i].replicates.values.push_back(std::sqrt(noise(image, reference_.relmse_floor)));
+      curves_[i].errors.push_back(error_of(level_[i], reference_));
+      curves_[i].replicates.push_back(level_[i].replicates);
     }
-    level_ = std::move(level);
+    last_level_ = std::move(level_);
+    wanted_.clear();
     return true;
   }
 
   // Renders the methods in turn until each has the wanted number of pictures. Returns false when cancelled.
-  bool render_missing(std::vector<PictureSeries>& level, const std::vector<int>& wanted) const {
-    const int most = *std::max_element(wanted.begin(), wanted.end());
+  bool render_missing() {
+    const int most = *std::max_element(wanted_.begin(), wanted_.end());
     for (int r = 0; r < most; ++r)
       for (std::size_t i = 0; i < methods_.size(); ++i) {
-        if (r >= wanted[i] || std::size_t(r) < level[i].images.size()) continue;
+        if (r >= wanted_[i] || std::size_t(r) < level_[i].images.size()) continue;
         const std::uint64_t seed = mc::hash(options_.seed, i, std::uint64_t(spp_), std::uint64_t(r));
         render::RenderResult result = render_picture(methods_[i], spp_, seed);
         if (result.partial) return false;
-        Replicates& replicates = level[i].replicates;
+        Replicates& replicates = level_[i].replicates;
         replicates.calls.push_back(result.spp);
         replicates.seconds.push_back(options_.cost_rays ? 1e-6 * double(result.rays) : result.cpu_seconds);
-        level[i].images.push_back(std::move(result.image));
+        level_[i].images.push_back(std::move(result.image));
         show(0.7 * (r + 1) / most, fmt::format("{} at {} spp", methods_[i].name(), spp_));
       }
     return true;
   }
 
   // Adds to the reference until its error is a tenth of the smallest noise of this level. Returns false when cancelled.
-  bool refine_reference(const std::vector<PictureSeries>& level) {
+  bool refine_reference() {
     if (reference_.spp == 0 && !add_to_reference(16.0 * spp_)) return false;
     double smallest = mc::infinity<double>;
-    for (const PictureSeries& s : level)
+    for (const PictureSeries& s : level_)
       for (const Image& image : s.images)
         if (const double x = noise(image, reference_.relmse_floor); x > mc::sqr(rounding_of_pixels))
           smallest = std::min(smallest, x);
@@ -300,9 +330,10 @@ class PictureSession {
   bool add_to_reference(double spp) {
     show(0.8, fmt::format("the reference, {:.0f} spp", reference_.spp + spp));
     const RenderMethod best{.max_depth = file_.defaults.max_depth, .allocation = SampleAllocation::adaptive};
-    const std::uint64_t seed = mc::hash(options_.seed, 77, ++references_);
+    const std::uint64_t seed = mc::hash(options_.seed, 77, references_ + 1);
     render::RenderResult r = render_picture(best, static_cast<int>(std::min(spp, 1e8)), seed);
     if (r.partial) return false;
+    ++references_;
     mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
     if (reference_.spp == 0) reference_.relmse_floor = relmse_floor_of(r.image);
     reference_.image =
@@ -327,6 +358,7 @@ class PictureSession {
     o.seed = seed;
     o.threads = options_.threads;
     o.cancel = options_.cancel;
+    o.checkpoint = options_.checkpoint;
     return render::render(file_.scene, o);
   }
 
@@ -346,12 +378,12 @@ class PictureSession {
       method.name = method.title = methods_[i].name();
       curve.method = &method;
       fit(curve);
-      biases.push_back(bias_of(level_[i], reference_, begun));
+      biases.push_back(bias_of(last_level_[i], reference_, begun));
       const bool is_plain =
           methods_[i].sampler == render::PixelSampler::independent && !is_adaptive(methods_[i].allocation);
       if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = ConvergenceRate{0.5, 0, "independent samples"};
       result.measurement.curves.push_back(std::move(curve));
-      result.pictures.push_back(level_[i].images.front());
+      result.pictures.push_back(last_level_[i].images.front());
     }
     set_break_even_errors(biases);
     for (const WorkAndBias& one : biases) result.biases.push_back(one.bias);
@@ -364,9 +396,14 @@ class PictureSession {
   const render::SceneFile& file_;
   const std::vector<RenderMethod>& methods_;
   const PictureOptions& options_;
-  const Clock::time_point start_ = Clock::now();
-  std::vector<ConvergenceCurve> curves_; ///< one for each method
-  std::vector<PictureSeries> level_;     ///< last level, one series for each method
+  Clock::time_point start_ = Clock::now();
+  double earlier_ = 0;                    ///< seconds before start_
+  std::vector<ConvergenceCurve> curves_;  ///< one for each method
+  std::vector<PictureSeries> last_level_, ///< last finished level, one series for each method
+      level_;                             ///< the level under way
+  std::vector<int> wanted_;               ///< number of its pictures of each method; empty between levels
+  Phase phase_ = Phase::begin;
+  double level_begin_ = 0; ///< seconds at its begin
   ReferencePicture reference_;
   std::uint64_t references_ = 0; ///< number of pictures averaged into the reference
   int spp_ = 4;                  ///< samples per pixel of the current level

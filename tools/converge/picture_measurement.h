@@ -50,6 +50,7 @@ struct PictureOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
+  mc::Checkpoint* checkpoint = nullptr; ///< saves and restores pictures and errors
   std::function<void(double done, const std::string& where)> progress = {};
 };
 

@@ -53,6 +53,7 @@ std::vector<StrategyResult> compare_strategies(const render::Scene& scene, rende
   settings.seconds.reset();
   settings.target_error.reset();
   settings.progress = nullptr;
+  settings.checkpoint = nullptr;
   return each_strategy(scene, settings);
 }
 
@@ -62,6 +63,7 @@ std::vector<StrategyResult> compare_strategies_for_time(const render::Scene& sce
   settings.target_error.reset();
   settings.adaptive = false;
   settings.progress = nullptr;
+  settings.checkpoint = nullptr;
   return each_strategy(scene, settings);
 }
 

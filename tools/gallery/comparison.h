@@ -21,6 +21,14 @@ struct StrategyResult {
   double outlier_dominated = 0;  ///< see RenderResult
   mc::Estimate mean;             ///< luminance, averaged over the picture
   bool misses_light = false;     ///< the strategy does not sample all light, so its picture is wrong
+
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) {
+    std::string word(name);
+    a(word, samples_per_second, spp, relative_error, work, outlier_dominated, mean.value, mean.std_error, mean.dof,
+      mean.count, misses_light);
+    if constexpr (Archive::is_reader) name = render::strategy_from(word).name;
+  }
 };
 
 /// Renders with every strategy that finds all lights, with the same number of samples. The picture is the one that

@@ -18,6 +18,14 @@ struct RenderedScene {
   std::string strategy, sampler;
   std::vector<Feature> features;
   std::vector<StrategyResult> strategies; ///< empty if they were not compared
+
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) {
+    std::string name(scene ? scene->name : std::string_view());
+    a(name, width, height, spp, seconds, samples_per_second, relative_error, outlier_dominated, strategy, sampler,
+      features, strategies);
+    if constexpr (Archive::is_reader) scene = &gallery_scene(name);
+  }
 };
 
 /// HTML that shows NAME.png of every scene, from the folder of the page. It needs no script and no network.

@@ -32,6 +32,7 @@ render::Image strategy_strip(const render::Scene& scene, render::RenderOptions s
   settings.target_error.reset();
   settings.adaptive = false;
   settings.progress = nullptr;
+  settings.checkpoint = nullptr;
   for (const render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
     labels.rows.emplace_back(strategy.name);

@@ -1,6 +1,8 @@
+#include <input/file_hash.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
+#include <options/checkpoint_options.h>
 #include <options/expression_options.h>
 #include <options/integral_options.h>
 #include <options/pixels.h>
@@ -171,6 +173,14 @@ IntegralTarget scene_target(const std::string& path) {
   return target;
 }
 
+mc::RunIdentity measurement_identity(const std::vector<Option>& options, const std::vector<std::string>& words) {
+  mc::RunIdentity identity =
+      run_identity(options, {"--list", "--threads", "--resume", "--every", "--timeout", "--memory"});
+  if (is_scene(words))
+    identity.emplace_back("the content of the scene's files", hash_of_files(render::read_mitsuba(words[0]).files));
+  return identity;
+}
+
 PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureRequest& run) {
   mc::require(o.cost == "cpu" || o.cost == "rays", "--cost '{}' must be cpu or rays", o.cost);
   mc::require(o.max_spp >= 16, "--max-spp {} must be at least 16", o.max_spp);
@@ -188,6 +198,7 @@ PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureReques
   p.seed = run.seed;
   p.threads = run.threads;
   p.cancel = run.cancel;
+  p.checkpoint = run.checkpoint;
   ProgressLine progress;
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
   return mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });

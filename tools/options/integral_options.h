@@ -62,7 +62,12 @@ struct SceneMeasureRequest {
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
+  mc::Checkpoint* checkpoint = nullptr;
 };
+
+/// Everything that a measurement depends on, for its checkpoints: the options, and the files of a scene.
+///   words : the integrands, or the scene.
+mc::RunIdentity measurement_identity(const std::vector<Option>& options, const std::vector<std::string>& words);
 
 /// A placeholder target for a scene in summaries and tables.
 IntegralTarget scene_target(const std::string& path);

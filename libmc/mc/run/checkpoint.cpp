@@ -155,7 +155,10 @@ const std::string* Checkpoint::open(const std::string& name, Save save) {
 
 void Checkpoint::close() {
   open_.pop_back();
-  // What was within this section is over, and so is this section: the next at its depth is new.
+  forget_inner_sections(); // the closed one and those within it: the next at its depth is new
+}
+
+void Checkpoint::forget_inner_sections() {
   if (saved_.size() > open_.size()) saved_.resize(open_.size());
 }
 

@@ -48,6 +48,9 @@ class Checkpoint {
   /// Saves the state, and waits until the file is written.
   void save_and_wait();
 
+  /// Forgets what the file to go on from contains within the open sections: the next section within them is new.
+  void forget_inner_sections();
+
   /// State of a part of a run, during its lifetime.
   class Section {
    public:

@@ -110,10 +110,13 @@ template <Job J> class JobRun {
 
   // Waits until a unit may start. Returns nullopt where none may.
   std::optional<std::size_t> take_unit(std::unique_lock<std::mutex>& lock) {
-    while (results_.contains(next_)) ++next_; // of a checkpoint
-    absorbed_more_.wait(lock, [&] { return next_ < absorbed_ + max_ahead * workers_ || next_ >= units_; });
-    if (next_ >= units_ || is_cancelled() || !may_start()) return {};
-    return next_++;
+    for (;;) {
+      next_ = std::max(next_, absorbed_);
+      while (results_.contains(next_)) ++next_; // of a checkpoint
+      if (next_ >= units_ || is_cancelled() || !may_start()) return {};
+      if (next_ < absorbed_ + max_ahead * workers_) return next_++;
+      absorbed_more_.wait(lock);
+    }
   }
 
   // After the last unit, a failure or a cancellation.

@@ -16,6 +16,9 @@ struct RmsError {
   double seconds = 0; ///< CPU seconds of one repetition, if the caller measures them.
   /// Whether rms = hi is only an upper bound, because the reference value is not accurate enough.
   bool is_bound = false;
+
+  /// The fields, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(n, rms, lo, hi, seconds, is_bound); }
 };
 
 /// Binary exponent of the largest |x|, or 0 if all are 0. Squares of ldexp(x, -exponent) do not overflow, and no

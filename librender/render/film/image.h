@@ -51,6 +51,11 @@ struct Image {
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
+  /// The image, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) {
+    a(width, height, pixels, variance, layers, estimates, noise_area, metadata);
+  }
+
   /// Pixel (x, y).
   Spectrum& at(int x, int y) { return pixels[index(x, y)]; }
   /// Pixel (x, y).

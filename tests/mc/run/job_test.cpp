@@ -177,12 +177,16 @@ TEST_F(JobTest, UnitThatGaveUp_IsComputedAgain) {
     ASSERT_FALSE(mc::run_job(first, {4, &cancel, &checkpoint}));
   }
   EXPECT_FALSE(first.absorbed_units.contains(5));
-  GivesUp second;
-  second.seed = 9;
-  Checkpoint checkpoint(files(), {});
-  ASSERT_TRUE(mc::run_job(second, {4, nullptr, &checkpoint}));
-  EXPECT_EQ(second.sum, expected_sum(9));
-  EXPECT_EQ(first.computed + second.computed, int(second.absorbed));
+  const std::string bytes = mc::read_file(file());
+  for (const int threads : {1, 4}) {
+    write("a.ckpt", bytes);
+    GivesUp second;
+    second.seed = 9;
+    Checkpoint checkpoint(files(), {});
+    ASSERT_TRUE(mc::run_job(second, {threads, nullptr, &checkpoint}));
+    EXPECT_EQ(second.sum, expected_sum(9));
+    EXPECT_EQ(first.computed + second.computed, int(second.absorbed));
+  }
 }
 
 TEST_F(JobTest, Exception_EndsTheRun) {
