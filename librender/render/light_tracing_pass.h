@@ -23,8 +23,8 @@ class LightTracingPass {
   /// Number of light paths of which the film is told together.
   static constexpr std::uint64_t batch_size = 64 * block_size;
 
-  /// Adds the contributions of the light paths [from, to) to a block. Contributions that are not finite are left out and
-  /// counted.
+  /// Adds the contributions of the light paths [from, to) to a block. Contributions that are not finite are left out
+  /// and counted.
   RenderStats trace(std::uint64_t from, std::uint64_t to, FilmBlock& block) const {
     return (this->*trace_)(from, to, block);
   }

@@ -23,9 +23,9 @@ class TileRenderer {
   /// Position of the film's pixels in their tiles.
   Tiling tiling() const { return {side, extent_.crop.x % side, extent_.crop.y % side}; }
 
-  /// Adds the samples of the tiles that begin at row y, within the columns from `column` on, to a block. The pixels of a
-  /// tile whose first column is column + i have the samples [from[i], to[i]). Samples that are not finite are left out
-  /// and counted.
+  /// Adds the samples of the tiles that begin at row y, within the columns from `column` on, to a block. The pixels of
+  /// a tile whose first column is column + i have the samples [from[i], to[i]). Samples that are not finite are left
+  /// out and counted.
   RenderStats render_row(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
                          FilmBlock& block) const {
     return (this->*render_row_)(y, column, from, to, block);

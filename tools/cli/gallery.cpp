@@ -21,7 +21,6 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <set>
 
 namespace carlo {
@@ -225,9 +224,7 @@ class GalleryRun {
   // Returns false when interrupted; an unfinished scene is not kept.
   bool render_one(SceneJob& a) {
     const std::string title(a.scene->name);
-    std::mutex mutex;
     a.settings.progress = [&](const render::Progress& p) {
-      const std::lock_guard lock(mutex);
       progress_.show((done_ + p.fraction * a.work) / work_,
                      fmt::format("{} of {}: {}", rendered_.size() + 1, scene_count_, title));
     };

@@ -33,7 +33,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <mutex>
 #include <string_view>
 #include <tuple>
 
@@ -237,6 +236,12 @@ std::string write_results(const RenderCommandOptions& options, const std::string
   return written;
 }
 
+// The picture that the run adds to; "" if there is none.
+std::string picture_to_resume(const RenderCommandOptions& o, const std::string& output) {
+  if (!resumes_picture(o)) return {};
+  return o.resume->empty() ? output : *o.resume;
+}
+
 // The files of checkpoints. A picture to go on from is none.
 CheckpointFiles checkpoint_files(const RenderCommandOptions& o) {
   CheckpointFiles files = o.checkpoint;
@@ -291,10 +296,8 @@ int run_render(const RenderCommandOptions& options) {
               output);
   warn_where_light_is_missed(scene, settings);
   ProgressLine progress;
-  std::mutex mutex;
   if (progress.is_visible())
     settings.progress = [&](const render::Progress& p) {
-      const std::lock_guard lock(mutex);
       progress.show(p.fraction, progress_text(p, options.target_error));
     };
 
@@ -304,11 +307,9 @@ int run_render(const RenderCommandOptions& options) {
   std::optional<FileLock> lock; // until the new picture is written
   std::optional<ResumeState> resumed;
   const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(options, fingerprint, settings);
-  if (resumes_picture(options)) {
-    const std::string picture = options.resume->empty() ? output : *options.resume;
-    if (std::filesystem::exists(picture)) lock.emplace(picture);
-    resumed = load_resume_state(picture, fingerprint, part, settings);
-  }
+  const std::string picture = picture_to_resume(options, output);
+  if (!picture.empty() && std::filesystem::exists(picture)) lock.emplace(picture);
+  if (!picture.empty()) resumed = load_resume_state(picture, fingerprint, part, settings);
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   settings.checkpoint = checkpoint.get();
@@ -335,7 +336,7 @@ int run_render(const RenderCommandOptions& options) {
     result.image.layers = layers(scene, extent, origin, settings.threads);
   }
   if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);
-  const std::string written = write_results(options, output, result, resumed.has_value(), tone);
+  const std::string written = write_results(options, output, result, picture == output, tone);
 
   fmt::print("{}", render_summary(written, result, options.target_error));
   if (resumed)

@@ -9,9 +9,9 @@
 
 namespace carlo {
 
-/// The results of a sequence of tasks, as a section of a checkpoint. A resumed program issues the same tasks in the same
-/// order, since each decision follows from earlier results: it gets the results of finished tasks from the log. The
-/// memory is that of the replicates, which the curves keep, too.
+/// The results of a sequence of tasks, as a section of a checkpoint. A resumed program issues the same tasks in the
+/// same order, since each decision follows from earlier results: it gets the results of finished tasks from the log.
+/// The memory is that of the replicates, which the curves keep, too.
 class ReplicateLog {
  public:
   /// A null checkpoint has no effect.

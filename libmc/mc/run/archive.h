@@ -134,6 +134,10 @@ class ArchiveWriter {
  public:
   static constexpr bool is_reader = false; ///< Whether values are read.
 
+  ArchiveWriter() = default;
+  /// Reuses the memory of a text, whose content is lost: new memory costs more than the writing of it.
+  explicit ArchiveWriter(std::string memory) : text_(std::move(memory)) { text_.clear(); }
+
   /// Appends values in order.
   template <class... T> ArchiveWriter& operator()(const T&... values) {
     // Functions of types take references that a reader changes; a writer leaves them as they are.
@@ -142,6 +146,14 @@ class ArchiveWriter {
   }
   /// Appends n bytes.
   void bytes(const void* data, std::size_t n) { text_.append(static_cast<const char*>(data), n); }
+  /// Appends what write() appends, as a string: with its length before it.
+  template <class Write> void nested(const Write& write) {
+    const std::size_t begin = text_.size();
+    (*this)(std::uint64_t{0});
+    write(*this);
+    const std::uint64_t length = text_.size() - begin - sizeof length;
+    std::memcpy(text_.data() + begin, &length, sizeof length);
+  }
   /// The bytes so far.
   const std::string& text() const { return text_; }
   /// Moves the bytes out.

@@ -4,6 +4,7 @@
 #include <mc/run/checkpoint.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstring>
 #include <thread>
@@ -16,15 +17,21 @@ namespace {
 constexpr std::string_view magic = "mc checkpoint 1\n";
 constexpr std::uint64_t byte_order = 0x0102030405060708;
 
+// Four sums of every fourth word, which do not wait for each other.
 std::uint64_t checksum_of(std::string_view bytes) {
-  std::uint64_t sum = hash(bytes.size());
-  for (; !bytes.empty(); bytes.remove_prefix(std::min(bytes.size(), sizeof sum))) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data(), std::min(bytes.size(), sizeof word));
-    sum = (sum ^ mix64(word)) * 0x9e3779b97f4a7c15ULL;
-    sum ^= sum >> 29;
+  std::array<std::uint64_t, 4> sums{1, 2, 3, 4};
+  const std::size_t size = bytes.size();
+  while (!bytes.empty()) {
+    std::array<std::uint64_t, 4> words{};
+    const std::size_t n = std::min(bytes.size(), sizeof words);
+    std::memcpy(words.data(), bytes.data(), n);
+    bytes.remove_prefix(n);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      sums[i] = (sums[i] ^ words[i]) * 0x9e3779b97f4a7c15ULL;
+      sums[i] ^= sums[i] >> 29;
+    }
   }
-  return sum;
+  return hash(size, sums[0], sums[1], sums[2], sums[3]);
 }
 
 // Throws Error unless the text is a complete checkpoint. Returns the bytes between the first line and the checksum.
@@ -74,6 +81,8 @@ class Checkpoint::Writing {
     if (thread_.joinable()) thread_.join();
     return failure_;
   }
+  /// The memory of the bytes, after wait().
+  std::string memory() { return std::move(bytes_); }
   ~Writing() { wait(); }
   Writing(const Writing&) = delete;
   Writing& operator=(const Writing&) = delete;
@@ -121,19 +130,19 @@ void Checkpoint::report_finished_writing() {
   if (!writing_) return;
   const std::string& failure = writing_->wait();
   if (!failure.empty() && options_.warn) options_.warn(failure);
+  memory_ = writing_->memory();
   writing_.reset();
 }
 
 void Checkpoint::save() {
   if (options_.file.empty()) return;
   report_finished_writing();
-  ArchiveWriter writer;
+  ArchiveWriter writer(std::move(memory_));
   writer.bytes(magic.data(), magic.size());
   writer(byte_order, identity_, std::uint64_t{open_.size()});
   for (const auto& [name, archive] : open_) {
-    ArchiveWriter section;
-    archive(section);
-    writer(name, section.text());
+    writer(name);
+    writer.nested(archive);
   }
   writing_ = std::make_unique<Writing>(options_.file, writer.take());
   last_ = Clock::now();

@@ -103,6 +103,7 @@ class Checkpoint {
   std::vector<std::pair<std::string, Save>> open_; ///< Open sections, the outermost first.
   std::vector<SavedSection> saved_;                ///< Sections of the file to go on from that may still be restored.
   std::unique_ptr<Writing> writing_;
+  std::string memory_; ///< Of the checkpoint before, for the next.
   Clock::time_point last_ = Clock::now();
 };
 
