@@ -91,8 +91,8 @@ int repeat_rows(const Film& film, Image& image) {
 constexpr std::uint64_t samples_of_unit = 1 << 17; ///< About, of a unit of pixels: less than a second.
 
 // Rows in the order of their units. Rows that write to common pixels stand in different turns, in an order that does
-// not depend on the crop. Within a turn, each row is in the middle of the widest gap, so that a cancelled first pass covers
-// the whole image.
+// not depend on the crop. Within a turn, each row is in the middle of the widest gap, so that a cancelled first pass
+// covers the whole image.
 //   border : width of the border around the film.
 std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border) {
   std::vector<std::uint32_t> order;

@@ -14,9 +14,9 @@
 namespace carlo {
 
 struct CheckpointFiles {
-  std::string checkpoint;    ///< file to write; empty: `resume`
-  std::string every = "60s"; ///< time between two checkpoints
-  std::string resume;        ///< file to go on from; empty: a new run
+  std::string checkpoint = {}; ///< file to write; empty: `resume`
+  std::string every = "60s";   ///< time between two checkpoints
+  std::string resume = {};     ///< file to go on from; empty: a new run
 };
 
 /// The rows of --checkpoint and --every.

@@ -50,14 +50,14 @@ std::string content_of(const std::string& file) {
 }
 
 /// A command with OUT for its output, and the files to compare.
-struct Command {
+struct KilledLine {
   std::string name, line;
   std::vector<std::string> files;
 };
 
-const std::string scene = MC_SOURCE_DIR "/librender/scenes/cbox.xml";
+const std::string cbox_file = MC_SOURCE_DIR "/librender/scenes/cbox.xml";
 
-const std::vector<Command> commands = {
+const std::vector<KilledLine> killed_commands = {
     {"render", "render cbox --size 24x24 --spp 37 --intervals OUT.pfm -o OUT.exr", {".exr", ".pfm"}},
     {"adaptive", "render cbox --size 24x20 --spp 40 --adaptive on -o OUT.exr", {".exr"}},
     {"splat", "render cbox --size 20x20 --spp 11 --splat -o OUT.exr", {".exr"}},
@@ -67,14 +67,14 @@ const std::vector<Command> commands = {
     {"validate", "validate Linear Tent CosineHemisphere --samples 5000 --json OUT.json --report OUT", {".json"}},
     {"converge", "converge pi x2_uniform --max-n 512 -o OUT", {"/pi.csv", "/x2_uniform.csv"}},
     {"converge_scene",
-     "converge " + scene + " --strategies mis --samplers sobol,independent --max-spp 16 --size 6x6 -o OUT",
+     "converge " + cbox_file + " --strategies mis --samplers sobol,independent --max-spp 16 --size 6x6 -o OUT",
      {"/cbox.csv"}},
     {"trade", "trade pi --error 1e-2 --max-n 256 -o OUT", {"/trade.csv"}},
     {"trade_scene",
-     "trade " + scene + " --strategies mis --samplers sobol --max-spp 32 --size 6x6 --cost rays -o OUT",
+     "trade " + cbox_file + " --strategies mis --samplers sobol --max-spp 32 --size 6x6 --cost rays -o OUT",
      {"/trade.csv", "/front.csv"}}};
 
-struct KilledCommand : support::ScratchTest, testing::WithParamInterface<Command> {
+struct KilledCommand : support::ScratchTest, testing::WithParamInterface<KilledLine> {
   std::string line(const std::string& out) const {
     return std::regex_replace(GetParam().line, std::regex("OUT"), path(out));
   }
@@ -103,8 +103,8 @@ TEST_P(KilledCommand, GoesOnWithTheSameBits) {
   EXPECT_GT(kills, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, KilledCommand, testing::ValuesIn(commands),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(Commands, KilledCommand, testing::ValuesIn(killed_commands),
+                         [](const auto& one) { return one.param.name; });
 
 struct CheckpointCommand : support::ScratchTest {};
 
