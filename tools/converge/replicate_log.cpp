@@ -21,14 +21,19 @@ Replicates ReplicateLog::run(const IntegralTarget& target, ReplicateTask task) {
   if (next_ == entries_.size()) {
     Entry entry{.task = key, .replicates = {}, .error = {}};
     task.checkpoint = checkpoint_;
+    const std::uint64_t saves = checkpoint_ ? checkpoint_->saves() : 0;
     try {
       entry.replicates = target.run(task);
     } catch (const mc::Error& e) {
       entry.error = e.what();
     }
     entry.elapsed = elapsed();
-    if (task.cancel && *task.cancel) return entry.replicates; // not complete
+    if (task.cancel && *task.cancel) { // not complete; units of this process were saved, those of a plugin are not
+      if (checkpoint_ && checkpoint_->saves() == saves) checkpoint_->save_and_wait();
+      return entry.replicates;
+    }
     entries_.push_back(std::move(entry));
+    if (checkpoint_ && checkpoint_->is_due()) checkpoint_->save();
   }
   const Entry& entry = entries_[next_++];
   earlier_ = entry.elapsed;

@@ -34,15 +34,15 @@ std::string text_of(const Option& o) {
 } // namespace
 
 std::vector<Option> checkpoint_rows(CheckpointFiles& files) {
-  return {output_file({"--checkpoint", "FILE", &files.checkpoint,
-                       "Save the state of the run to this file, from time to time and at its end, so that --resume can "
-                       "go on from it. Default: the file of --resume."}),
+  return {state_file({"--checkpoint", "FILE", &files.checkpoint,
+                      "Save the state of the run to this file, from time to time and at its end, so that --resume can "
+                      "go on from it. Default: the file of --resume."}),
           {"--every", "TIME", &files.every, "Time between two checkpoints: 90s, 5min, 1h; 0 is as often as possible."}};
 }
 
 Option resume_row(CheckpointFiles& files) {
-  return {"--resume", "FILE", &files.resume,
-          "Go on from this checkpoint. The results have the bits of a run without an interruption."};
+  return state_file({"--resume", "FILE", &files.resume,
+                     "Go on from this checkpoint. The results have the bits of a run without an interruption."});
 }
 
 double parse_duration(std::string_view option, const std::string& text) {
@@ -63,7 +63,7 @@ mc::RunIdentity run_identity(const std::vector<Option>& options, const std::set<
   mc::RunIdentity identity = {{"the build", fmt::format("{} ({})", version, commit)}};
   for (const Option& o : options) {
     const std::string name = o.names.substr(o.names.find(',') + 1);
-    const bool is_output = o.use == FileUse::output || o.use == FileUse::output_folder;
+    const bool is_output = o.use != FileUse::none && o.use != FileUse::input;
     const std::string text = text_of(o);
     if (is_output || text.empty() || ignored.contains(name)) continue;
     const std::string hash = o.use == FileUse::input ? hash_of_files({text}) : "";

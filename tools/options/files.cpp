@@ -20,6 +20,11 @@ Option output_file(Option o) {
   return o;
 }
 
+Option state_file(Option o) {
+  o.use = FileUse::state;
+  return o;
+}
+
 Option output_folder(Option o, std::vector<std::string> files) {
   o.use = FileUse::output_folder;
   o.files = std::move(files);
@@ -56,6 +61,7 @@ std::vector<UsedFile> files_of(const std::vector<Option>& options) {
       const std::string what = name.starts_with('-') ? "the file of " + name : name;
       if (o.use == FileUse::input) all.push_back({value, what});
       if (o.use == FileUse::output) all.push_back({value, name, true});
+      if (o.use == FileUse::state) all.push_back({value, name, true, true});
       for (const std::string& file : o.files) all.push_back({(fs::path(value) / file).string(), name, true});
     }
   return all;
@@ -66,6 +72,7 @@ void require_distinct_files(const std::vector<UsedFile>& files) {
   for (std::size_t i = 0; i < files.size(); ++i)
     for (std::size_t j = i + 1; j < files.size(); ++j) {
       const UsedFile &a = files[i], &b = files[j];
+      if (a.is_state && b.is_state) continue;
       mc::require(!a.is_output || !b.is_output || !is_same_output(a.path, b.path),
                   "{} and {} would both write '{}'; name another file", a.origin, b.origin, a.path);
       if (a.is_output == b.is_output) continue;

@@ -14,6 +14,7 @@ struct UsedFile {
   std::string
       origin; ///< of an output: its option, "--json"; of an input: "the file of --plugin", "a file of the scene"
   bool is_output = false;
+  bool is_state = false; ///< an output that may be the same file as another state
 };
 
 /// The files that options name, in their order. An output folder gives its fixed files.

@@ -37,8 +37,8 @@ struct Exclusion {
   std::string reason; ///< "--time chooses the number of samples": the end of a message
 };
 
-/// Use of the file or folder that an option names.
-enum class FileUse { none, input, output, output_folder };
+/// Use of the file or folder that an option names. A state is read and replaced, as a checkpoint is.
+enum class FileUse { none, input, output, output_folder, state };
 
 /// One option, or a positional argument without a name.
 struct Option {
@@ -61,6 +61,8 @@ struct Option {
 Option input_file(Option o);
 /// The option of a file that is written; "-" is standard output.
 Option output_file(Option o);
+/// The option of a file from which a run goes on, and which it replaces.
+Option state_file(Option o);
 /// The option of a folder into which files are written. List the names that are fixed; the subcommand checks the others
 /// by require_distinct_files() as soon as it can name them.
 Option output_folder(Option o, std::vector<std::string> files);

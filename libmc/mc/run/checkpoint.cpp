@@ -135,6 +135,7 @@ void Checkpoint::report_finished_writing() {
 }
 
 void Checkpoint::save() {
+  ++saves_;
   if (options_.file.empty()) return;
   report_finished_writing();
   ArchiveWriter writer(std::move(memory_));

@@ -4,6 +4,7 @@
 #include <mc/run/archive.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -45,6 +46,8 @@ class Checkpoint {
   bool is_due() const;
   /// Copies the state and begins to write it.
   void save();
+  /// Number of calls of save() and save_and_wait().
+  std::uint64_t saves() const { return saves_; }
   /// Saves the state, and waits until the file is written.
   void save_and_wait();
 
@@ -105,6 +108,7 @@ class Checkpoint {
   std::unique_ptr<Writing> writing_;
   std::string memory_; ///< Of the checkpoint before, for the next.
   Clock::time_point last_ = Clock::now();
+  std::uint64_t saves_ = 0;
 };
 
 } // namespace mc

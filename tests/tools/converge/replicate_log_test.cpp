@@ -21,10 +21,11 @@ struct ReplicateLogTest : support::ScratchTest {
       return Replicates{{double(task.n)}, {double(task.seed)}, {0}};
     };
   }
-  std::unique_ptr<mc::Checkpoint> checkpoint() const {
+  std::unique_ptr<mc::Checkpoint> checkpoint(double every = 60) const {
     const std::string file = path("a.ckpt");
     return std::make_unique<mc::Checkpoint>(
-        mc::CheckpointOptions{.file = file, .resume = std::filesystem::exists(file) ? file : ""}, mc::RunIdentity{});
+        mc::CheckpointOptions{.file = file, .every = every, .resume = std::filesystem::exists(file) ? file : ""},
+        mc::RunIdentity{});
   }
   Replicates run(ReplicateLog& log, std::uint64_t n) const {
     return log.run(target, {&sampling_method("random"), n, 1, 0, 1});
@@ -68,6 +69,18 @@ TEST_F(ReplicateLogTest, AnotherTask_ForgetsTheRest) {
   EXPECT_EQ(run(log, 256).values, (std::vector<double>{256}));
   EXPECT_EQ(run(log, 128).values, (std::vector<double>{128}));
   EXPECT_EQ(calls, 5);
+}
+
+// A target that has no units, as a plugin, is saved between its tasks, and when the run is cancelled.
+TEST_F(ReplicateLogTest, TargetWithoutUnits_IsSavedBetweenTasks) {
+  for (const bool is_cancelled : {false, true}) {
+    std::filesystem::remove(path("a.ckpt"));
+    const std::atomic<bool> cancel = is_cancelled;
+    const auto files = checkpoint(is_cancelled ? 1e9 : 0);
+    ReplicateLog log(files.get());
+    log.run(target, {&sampling_method("random"), 16, 1, 0, 1, 1, &cancel});
+    EXPECT_EQ(files->saves(), 1u);
+  }
 }
 
 } // namespace

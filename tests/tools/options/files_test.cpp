@@ -39,6 +39,8 @@ TEST_F(FilesTest, OutputOverInput_IsRefusedByAnyName) {
   EXPECT_EQ(refusal({{in, "the file of --plugin"}, {path("new.csv"), "--json", true}, {"-", "--junit", true}}), "");
   EXPECT_EQ(refusal({{path("none"), "INTEGRAND"}, {path("none"), "--json", true}}), "") << "a name and no file";
   EXPECT_EQ(refusal({{in, "A"}, {in, "B"}}), "");
+  EXPECT_EQ(refusal({{in, "--checkpoint", true, true}, {in, "--resume", true, true}}), "");
+  EXPECT_NE(refusal({{in, "--checkpoint", true, true}, {in, "--json", true}}), "");
 }
 
 TEST_F(FilesTest, OutputOverOutput_IsRefusedUnlessItIsADevice) {
