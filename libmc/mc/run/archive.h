@@ -1,9 +1,9 @@
 #pragma once
 /// Values as bytes, for checkpoints. One function describes a type for writing and for reading.
 ///
-/// A type is archived by its member, or by a free function in its namespace:
-///   template <class Archive> void archive(Archive& a) { a(count, sums); }
-///   template <class Archive> void archive(Archive& a, Type& x) { a(x.count, x.sums); }
+/// A type is archived by its member, or by a free function in its namespace.
+///   member   : `template <class Archive> void archive(Archive& a) { a(count, sums); }`
+///   function : `template <class Archive> void archive(Archive& a, Type& x) { a(x.count, x.sums); }`
 /// Numbers, enumerations, strings, vectors, deques, arrays, optionals, pairs, maps and fixed-size Eigen arrays need no
 /// function. Bytes depend on the byte order of the machine.
 
