@@ -1,9 +1,8 @@
 #pragma once
 /// Values as bytes, for checkpoints. One function describes a type for writing and for reading.
 ///
-/// A type is archived by its member, or by a free function in its namespace.
-///   member   : `template <class Archive> void archive(Archive& a) { a(count, sums); }`
-///   function : `template <class Archive> void archive(Archive& a, Type& x) { a(x.count, x.sums); }`
+/// A type is archived by its member archive(a), or by a function archive(a, x) in its namespace. Both are templates of
+/// the type of `a`, and call a(first, second, ...) with the fields: see SampleSums::archive of librender.
 /// Numbers, enumerations, strings, vectors, deques, arrays, optionals, pairs, maps and fixed-size Eigen arrays need no
 /// function. Bytes depend on the byte order of the machine.
 
