@@ -39,7 +39,7 @@ struct SpreadHistory {
 
 /// Mean of independent replicates with `points` points each. Adds the present length to the history.
 Mean mean_of_replicates(std::span<const double> means, double points, const SampledValues& values, int dim,
-                        SpreadHistory& history, const Tuning& t = tuning);
+                        SpreadHistory& history, const Tuning& t = default_tuning);
 
 /// The two-sided interval with this coverage. All numbers unless the error is known.
 Estimate::Interval interval(const Mean& m, double confidence);
@@ -63,11 +63,11 @@ struct TailFindings {
   std::array<double, 2> shape;
 };
 /// Findings about the tails. `cap` is an upper bound of the largest excess over the number of values.
-TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t = tuning);
+TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t = default_tuning);
 
 /// Finding about the error bar from the values, from the contribution of unsampled ones, and from the shapes of the
 /// tails at the last lengths.
 ErrorBar judge(const Extremes& extremes, const std::array<double, 2>& unsampled,
-               std::span<const std::array<double, 2>> shapes, int dim, const Tuning& t = tuning);
+               std::span<const std::array<double, 2>> shapes, int dim, const Tuning& t = default_tuning);
 
 } // namespace mc::detail

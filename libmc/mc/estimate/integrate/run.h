@@ -40,10 +40,10 @@ struct Round {
 
 /// State of one call of integrate().
 struct Run {
-  Evaluator evaluator;                   ///< Evaluates the integrand.
-  const Tuning& tuning = detail::tuning; ///< Constants of the error bar.
-  std::vector<Round> rounds = {};        ///< All rounds so far.
-  std::optional<Outcome> last = {};      ///< Answer if the run is cancelled now.
+  Evaluator evaluator;                           ///< Evaluates the integrand.
+  const Tuning& tuning = detail::default_tuning; ///< Constants of the error bar.
+  std::vector<Round> rounds = {};                ///< All rounds so far.
+  std::optional<Outcome> last = {};              ///< Answer if the run is cancelled now.
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now(); ///< Begin.
 
   /// Options of the call.

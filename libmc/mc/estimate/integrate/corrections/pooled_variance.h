@@ -15,9 +15,10 @@ namespace mc::detail {
 ///   why     : The spread of few replicates is itself uncertain, and runs stop where it is too small by chance. At a
 ///             jump, replicates differ by a whole multiple of height / n, and agree by chance at many lengths.
 ///   spreads : at the lengths `points`, which double; both have the same size.
-double pooled_spread(std::span<const double> points, std::span<const double> spreads, const Tuning& t = tuning);
+double pooled_spread(std::span<const double> points, std::span<const double> spreads, const Tuning& t = default_tuning);
 
 /// Rate of convergence a of the last spreads; .5 where fewer than three of them are positive.
-double convergence_rate(std::span<const double> points, std::span<const double> spreads, const Tuning& t = tuning);
+double convergence_rate(std::span<const double> points, std::span<const double> spreads,
+                        const Tuning& t = default_tuning);
 
 } // namespace mc::detail

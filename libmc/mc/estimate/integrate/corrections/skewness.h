@@ -9,7 +9,7 @@ namespace mc::detail {
 
 /// Third cumulant of the mean of independent numbers, over its standard error cubed, divided by 6, times the share of
 /// the correction that is in use; 0 where the numbers are equal to within rounding.
-double skew_of_mean(std::span<const double> numbers, const Tuning& t = tuning);
+double skew_of_mean(std::span<const double> numbers, const Tuning& t = default_tuning);
 
 /// Shift of the end of a t interval on the side of the skewness.
 ///   assumes : The numbers are independent with a finite third moment.

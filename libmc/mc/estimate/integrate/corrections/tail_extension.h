@@ -18,14 +18,14 @@ namespace mc::detail {
 ///             interval. Bounded tails get nothing.
 ///   cap     : Upper bound of Y / N. Where replicates of n points differ by less than Y / n, their points resolve the
 ///             tail.
-double tail_contribution(const TailFit& tail, double count, double cap, const Tuning& t = tuning);
+double tail_contribution(const TailFit& tail, double count, double cap, const Tuning& t = default_tuning);
 
 /// Contribution at the last of several lengths, averaged over the last `pooled_lengths`.
 ///   assumes : With a tail of shape xi contributions fall with the number of points n like n^-(1 - xi).
 ///   why     : A contribution halves at each length at which no value exceeds the largest, and runs would stop there.
 ///   contributions : at the lengths `points`, which double; both have the same size.
 double pooled_contribution(std::span<const double> points, std::span<const double> contributions, double shape,
-                           const Tuning& t = tuning);
+                           const Tuning& t = default_tuning);
 
 /// Length by which an interval with error probability alpha on either side is extended, in units of the contribution:
 /// all N values are below Y with probability alpha if Y is exceeded with probability -log(alpha) / N.

@@ -30,6 +30,6 @@ struct Tuning {
   double dominating_share = 0.5; ///< ... dominate with this share of the sum of all sizes.
 };
 
-inline constexpr Tuning tuning{}; ///< The constants in use.
+inline constexpr Tuning default_tuning{}; ///< The constants in use.
 
 } // namespace mc::detail

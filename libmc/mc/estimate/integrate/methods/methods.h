@@ -23,7 +23,7 @@ std::span<const MethodRow> method_rows();
 
 /// integrate_unit() with other constants of the error bar, for tests of what each is needed for.
 VectorIntegral integrate(const Integrand& f, int outputs, int dim, const IntegrateOptions& options,
-                         const Tuning& tuning = detail::tuning);
+                         const Tuning& tuning = detail::default_tuning);
 
 Outcome run_plain(Run& run);      ///< Independent points.
 Outcome run_stratified(Run& run); ///< Independent rounds of jittered points.

@@ -31,7 +31,7 @@ TEST(PooledVariance, PowerLawIsReproduced) {
 }
 
 TEST(PooledVariance, RateIsClippedAndHasADefault) {
-  EXPECT_EQ(convergence_rate(lengths, falling(9)), mc::detail::tuning.max_rate);
+  EXPECT_EQ(convergence_rate(lengths, falling(9)), mc::detail::default_tuning.max_rate);
   std::vector<double> rising = falling(0.5);
   std::reverse(rising.begin(), rising.end());
   EXPECT_EQ(convergence_rate(lengths, rising), 0);

@@ -15,7 +15,7 @@ using Function = std::function<double(std::span<const double>)>;
 const Function near_pole = [](std::span<const double> u) { return 1 / (1e-3 + mc::sqr(u[0] - 0.4)); };
 
 mc::Integral integral(const Function& f, int dim, mc::Method method, double rel_error, std::uint64_t max_calls,
-                      std::uint64_t seed = 1, const Tuning& tuning = mc::detail::tuning) {
+                      std::uint64_t seed = 1, const Tuning& tuning = mc::detail::default_tuning) {
   mc::IntegrateOptions o;
   o.method = method;
   o.rel_error = rel_error;
@@ -131,7 +131,7 @@ struct Held {
 };
 template <class Make>
 Held held(Make&& make, int dim, mc::Method method, double rel_error, std::uint64_t calls, int runs,
-          const Tuning& tuning = mc::detail::tuning) {
+          const Tuning& tuning = mc::detail::default_tuning) {
   Held h;
   for (int i = 1; i <= runs; ++i) {
     const auto [f, truth] = make(i);
