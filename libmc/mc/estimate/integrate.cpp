@@ -6,6 +6,11 @@
 
 namespace mc {
 
+namespace {
+// Tail index up to which the integral may be infinite: 1, and the deviation of an index fitted to 62 values.
+constexpr double perhaps_infinite = 1.25;
+} // namespace
+
 std::string_view name(ErrorBar bar) {
   switch (bar) {
   case ErrorBar::known: return "known";
@@ -41,7 +46,7 @@ std::string Integral::to_string() const {
   case ErrorBar::undersampled:
     text =
         fmt::format("{:.10g}, error not known: a few of {} points hold most of the integral. More calls are needed{}",
-                    estimate.value, calls, tail_index < 1.1 ? ", or the integral is infinite" : "");
+                    estimate.value, calls, tail_index < perhaps_infinite ? ", or the integral is infinite" : "");
     break;
   case ErrorBar::too_few_points:
     text = fmt::format("{:.10g}, error not known: {} points are too few for so many dimensions. More calls are needed",
@@ -51,6 +56,10 @@ std::string Integral::to_string() const {
     text = fmt::format("{:.10g}, error not known: the variance ", estimate.value);
     if (infinite_points > 0)
       text += fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite_points);
+    else if (tail_index < perhaps_infinite)
+      text += fmt::format("looks infinite, and the integral may be (tail index {:.2f}; a finite variance needs more "
+                          "than 2, a finite integral more than 1)",
+                          tail_index);
     else text += fmt::format("looks infinite (tail index {:.2f}; a finite variance needs more than 2)", tail_index);
     break;
   case ErrorBar::not_integrable:

@@ -167,7 +167,10 @@ TEST(Integrate, FiniteVariance_IsRarelyCalledInfinite) {
 // Infinite integrals, sampled from densities that follow them, have no error bar that could hold. An error bar of a
 // tenth of the runs passes with probability .99.
 TEST(Integrate, DivergentIntegrals_ErrorIsUnknown) {
-  const std::function<double(Unit)> integrands[] = {[](Unit u) { return 1 / u[0]; }, [](Unit u) { return u[1] / u[0]; },
+  const std::function<double(Unit)> integrands[] = {[](Unit u) { return 1 / u[0]; },
+                                                    [](Unit u) { return u[1] / u[0]; },
+                                                    [](Unit u) { return 1 / (1 - u[0]); },
+                                                    [](Unit u) { return std::pow(1 - u[0], -1.2); },
                                                     [](Unit u) { return 1 / (u[0] * u[0] + u[1] * u[1]); },
                                                     [](Unit u) { return std::pow(u[0] * u[0] + u[1] * u[1], -1.3); }};
   for (const Method method : methods) {
@@ -177,8 +180,36 @@ TEST(Integrate, DivergentIntegrals_ErrorIsUnknown) {
         const mc::Integral r = mc::integrate_unit(f, 2, with(method, 50'000, seed));
         known += r.error_bar == mc::ErrorBar::known && r.consistent;
       }
-    EXPECT_LE(known, 18) << name(method);
+    EXPECT_LE(known, 22) << name(method);
   }
+}
+
+// Conditionally convergent: sin(x) / x over (0, inf), by x = u / (1 - u). Its singularity is where doubles are coarse.
+TEST(Integrate, ConditionallyConvergent_ErrorIsUnknown) {
+  const auto f = [](Unit u) { return std::sin(u[0] / (1 - u[0])) / (u[0] * (1 - u[0])); };
+  for (const Method method : methods) {
+    int known = 0;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed)
+      known += mc::integrate_unit(f, 1, with(method, 200'000, seed)).error_bar == mc::ErrorBar::known;
+    EXPECT_LE(known, 2) << name(method);
+  }
+}
+
+// Two bounded peaks in 30 dimensions: their values span decades, but no variance is infinite.
+TEST(Integrate, PeaksInManyDimensions_AreNotCalledInfinite) {
+  const auto f = [](Unit u) {
+    double a = 0, b = 0;
+    for (const double x : u) {
+      a += mc::sqr((x - 0.3) / 0.2);
+      b += mc::sqr((x - 0.7) / 0.2);
+    }
+    return std::exp(-a / 2) + std::exp(-b / 2);
+  };
+  for (const Method method : methods)
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const mc::ErrorBar bar = mc::integrate_unit(f, 30, with(method, 200'000, seed)).error_bar;
+      EXPECT_TRUE(bar == mc::ErrorBar::undersampled || bar == mc::ErrorBar::too_few_points) << name(method) << seed;
+    }
 }
 
 // Infinite points represent doubles that a learned density cannot separate from a singular point. They may contain much
@@ -365,10 +396,11 @@ TEST(Integral, PrintsItself) {
   EXPECT_TRUE(mc::integrate_unit(zero, 1, o).to_string().starts_with("0, error not known: "));
   r = {};
   r.tail_index = 0.9;
-  for (const auto& [bar, text] : {std::pair{mc::ErrorBar::infinite_variance, "the variance looks infinite"},
-                                  {mc::ErrorBar::not_integrable, "the integral does not seem to converge absolutely"},
-                                  {mc::ErrorBar::too_few_points, "points are too few for so many dimensions"},
-                                  {mc::ErrorBar::undersampled, "or the integral is infinite"}}) {
+  for (const auto& [bar, text] :
+       {std::pair{mc::ErrorBar::infinite_variance, "the variance looks infinite, and the integral may be"},
+        {mc::ErrorBar::not_integrable, "the integral does not seem to converge absolutely"},
+        {mc::ErrorBar::too_few_points, "points are too few for so many dimensions"},
+        {mc::ErrorBar::undersampled, "or the integral is infinite"}}) {
     r.error_bar = bar;
     EXPECT_THAT(r.to_string(), testing::HasSubstr(text));
   }

@@ -12,12 +12,13 @@ namespace mc {
 
 namespace {
 
-constexpr double uniform_share = 0.1; // of the probability, uniform over the cube
-constexpr double even_share = 0.02;   // of the probability of a box that is cut, uniform over the box
-constexpr double mean_share = 0.25;   // weight of the squared mean relative to the variance
-constexpr double fewest = 16;         // minimum number of points of either half in a box
-constexpr double worthwhile = 0.02;   // minimum share of the cost of a box that a cut must save
-constexpr std::size_t parts = 8;      // equal parts of a side; cuts lie between them
+constexpr double uniform_share = 0.1;  // of the probability, uniform over the cube
+constexpr double even_share = 0.02;    // of the probability of a box that is cut, uniform over the box
+constexpr double mean_share = 0.25;    // weight of the squared mean relative to the variance
+constexpr double fewest = 16;          // minimum number of points of either half in a box
+constexpr double worthwhile = 0.02;    // minimum share of the cost of a box that a cut must save
+constexpr double resolution = 0x1p-12; // least side of a box that is cut, in units of its upper end
+constexpr std::size_t parts = 8;       // equal parts of a side; cuts lie between them
 
 struct Sums {
   double n = 0, weight = 0, value = 0, square = 0;
@@ -82,6 +83,7 @@ struct Learner {
     for (std::size_t a = 0; a < box.lo.size(); ++a) {
       std::array<Halves, parts> part{};
       const double side = box.hi[a] - box.lo[a];
+      if (side < resolution * box.hi[a]) continue;
       for (std::size_t i = box.first; i < box.last; ++i) {
         const std::size_t k = order[i];
         const double place = (samples.point(k)[a] - box.lo[a]) / side * parts;

@@ -54,6 +54,22 @@ TEST(ImportanceTree, KeepsProbabilityBesideAPeak) {
   EXPECT_GT(density(0.15, 0.05), 2 * density(0.9, 0.9));
 }
 
+// Near 1 doubles are 2^-53 apart. A box of few doubles would show its largest value as a bound of the pole.
+TEST(ImportanceTree, BoxesContainManyDoubles) {
+  mc::WeightedSamples s = samples_of(1, 20'000, [](std::span<const double>) { return 1.0; });
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double rest = std::exp2(-50 * s.points[i]); // points as a density would draw them that follows 1 / (1 - x)
+    s.points[i] = 1 - rest;
+    s.values[i] = 1 / rest;
+    s.weights[i] *= 50 * std::log(2.0) * rest;
+  }
+  const mc::BoxTree tree = mc::importance_tree(s);
+  EXPECT_GT(tree.leaves(), 5u);
+  double largest = 0;
+  for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) largest = std::max(largest, tree.density(leaf));
+  EXPECT_LE(largest, 0x1p12 * 8);
+}
+
 TEST(ImportanceTree, NoSamples_GivesOneBox) {
   EXPECT_EQ(mc::importance_tree(samples_of(2, 0, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
   EXPECT_EQ(mc::importance_tree(samples_of(2, 5000, [](std::span<const double>) { return 0.0; })).leaves(), 1u);

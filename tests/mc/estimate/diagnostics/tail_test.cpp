@@ -61,6 +61,18 @@ TEST(FitTail, EqualValues_AreBounded) {
   EXPECT_LT(mc::find_tail(plateau, mc::TailSide::largest).shape, 0);
 }
 
+// A fortieth of the values, but at least 16 and at most 250; the deep tail is a quarter of them.
+TEST(FindTail, ThresholdFollowsTheNumberOfValues) {
+  const auto power = [](double u) { return std::pow(u, -0.4); };
+  const std::pair<std::size_t, std::size_t> numbers[] = {
+      {200, 16}, {640, 16}, {4000, 100}, {10'000, 250}, {90'000, 250}};
+  for (const auto& [count, values] : numbers) {
+    const mc::Tail tail = mc::find_tail(extremes(5, count, power), mc::TailSide::largest);
+    EXPECT_EQ(tail.fit.values, values) << count;
+    EXPECT_EQ(tail.deep.values, values / 4 < 16 ? 0 : values / 4) << count;
+  }
+}
+
 // Every threshold sees the same power law.
 TEST(FindTail, HeavyTailIsHeavyAtAllThresholds) {
   int heavy = 0, light = 0;

@@ -168,6 +168,15 @@ TEST(Judge, NamesWhatTheValuesShow) {
   EXPECT_EQ(judge(even, heavy, 3), mc::ErrorBar::infinite_variance);
   EXPECT_EQ(judge(even, once, 3), mc::ErrorBar::known);
   EXPECT_EQ(judge(even, worst, 3), mc::ErrorBar::not_integrable);
+  // The variance is infinite from a shape of 1/2 on, the integral from 1 on; fitted shapes err.
+  EXPECT_EQ(judge(even, Shapes(3, {-1, 0.65}), 3), mc::ErrorBar::known);
+  EXPECT_EQ(judge(even, Shapes(3, {0.75, -1}), 3), mc::ErrorBar::infinite_variance);
+  EXPECT_EQ(judge(even, Shapes(3, {-1, 0.95}), 3), mc::ErrorBar::infinite_variance);
+  EXPECT_EQ(judge(even, Shapes(3, {-1, 0.99}), 3), mc::ErrorBar::not_integrable);
+  EXPECT_EQ(judge(even, Shapes(2, {-1, 0.8}), 3), mc::ErrorBar::known); // too few lengths
+  std::vector<double> sixteen(4096, 0.001);
+  std::fill_n(sixteen.begin(), 17, 100.0);
+  EXPECT_EQ(judge(sixteen, {}, 3), mc::ErrorBar::known);
   EXPECT_EQ(judge(even, heavy, 13), mc::ErrorBar::too_few_points); // 4096 points cannot fill 2^13 corners
 }
 

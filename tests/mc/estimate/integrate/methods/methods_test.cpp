@@ -146,15 +146,21 @@ Held held(Make&& make, int dim, mc::Method method, double rel_error, std::uint64
 // A sum of a smooth part and a singularity of infinite variance: the variance is called infinite, or the interval
 // holds.
 TEST(Methods, SmoothPlusSingular_IsNamedOrHeld) {
-  const auto sum = [](double slope, double power) {
+  const auto sum = [](double slope, double power, double constant = 0) {
     return [=](int) {
-      const Function f = [=](std::span<const double> u) { return slope * u[1] + std::pow(u[0], -power); };
-      return std::pair(f, slope / 2 + 1 / (1 - power));
+      const Function f = [=](std::span<const double> u) { return constant + slope * u[1] + std::pow(u[0], -power); };
+      return std::pair(f, constant + slope / 2 + 1 / (1 - power));
     };
+  };
+  const auto falling = [](int) {
+    const Function f = [](std::span<const double> u) { return 200 * std::exp(-u[1]) + std::pow(u[0], -0.8); };
+    return std::pair(f, 200 * (1 - std::exp(-1)) + 5);
   };
   for (const mc::Method method : {mc::Method::rqmc, mc::Method::automatic}) {
     EXPECT_GE(held(sum(300, 0.8), 2, method, 1e-3, 1'000'000, 40).held, 36);
     EXPECT_GE(held(sum(100, 0.6), 2, method, 1e-3, 1'000'000, 40).held, 36);
+    EXPECT_GE(held(sum(0, 0.8, 300), 2, method, 1e-3, 1'000'000, 40).held, 36);
+    EXPECT_GE(held(falling, 2, method, 1e-3, 1'000'000, 40).held, 36);
     const Held finite = held(sum(100, 0.45), 2, method, 1e-3, 1'000'000, 40);
     EXPECT_GE(finite.held, 36);
     EXPECT_LE(finite.infinite, 1);
