@@ -61,7 +61,7 @@ V to_light(Pcg& r) { return direction(1 - uniform(r) * (1 - light_cos), 2 * pi *
 
 // The light of the ceiling at a point of the floor below a sheet at height 0.3, if hits at t <= 0.001 do not count.
 double light_through_occluder(Pcg& r, bool unit) {
-  const V d(130 * uniform(r), 105 * uniform(r), 554);
+  const V d{130 * uniform(r), 105 * uniform(r), 554.0};
   return 0.3 / d.z() * (unit ? d.norm() : 1) > 0.001 ? 0 : 1;
 }
 

@@ -80,7 +80,7 @@ Hit intersect(const V& o, const V& d) {
 }
 
 V toward_light(const V& p, Pcg& r) {
-  const V q(light_x0 + (light_x1 - light_x0) * uniform(r), light_y, light_z0 + (light_z1 - light_z0) * uniform(r));
+  const V q{light_x0 + (light_x1 - light_x0) * uniform(r), light_y, light_z0 + (light_z1 - light_z0) * uniform(r)};
   return (q - p).normalized();
 }
 

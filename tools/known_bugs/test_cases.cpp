@@ -191,7 +191,7 @@ Direction cosine(mc::Pcg& r) { return mc::CosineHemisphere<double>{}.sample(r.po
 
 Direction in_ball(mc::Pcg& r) {
   for (;;) {
-    const Direction p(2 * r.uniform<double>() - 1, 2 * r.uniform<double>() - 1, 2 * r.uniform<double>() - 1);
+    const Direction p{2 * r.uniform<double>() - 1, 2 * r.uniform<double>() - 1, 2 * r.uniform<double>() - 1};
     if (p.squaredNorm() < 1) return p;
   }
 }

@@ -11,13 +11,17 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 
 namespace checker_bench {
 namespace {
 
 using mc::pi;
 
-double normal(Pcg& q) { return std::sqrt(-2 * std::log1p(-uniform(q))) * std::cos(2 * pi<double> * uniform(q)); }
+double normal(Pcg& q) {
+  const double radius = std::sqrt(-2 * std::log1p(-uniform(q)));
+  return radius * std::cos(2 * pi<double> * uniform(q));
+}
 
 // Returns the logarithm of a gamma variate of any shape > 0, by [MarsagliaTsang00] and a power of a uniform.
 double log_gamma(Pcg& q, double shape) {
@@ -32,7 +36,7 @@ double log_gamma(Pcg& q, double shape) {
 // A lobe of width (1 - g)^2 by the usual formula, which cancels near the pole.
 template <mc::Real S> Subject cancelling_lobe(const char* name, double one_minus_g) {
   const S g = static_cast<S>(1 - one_minus_g);
-  return make_subject(
+  Subject subject = make_subject(
       fmt::format("{} of g = 1 - {:.3g}", name, one_minus_g), mc::Sphere<S>{},
       [g](Pcg& q) -> mc::Vec3<S> {
         const S u = q.uniform<S>(), phi = 2 * pi<S> * q.uniform<S>(), s = (1 - g * g) / (1 - g + 2 * g * u);
@@ -43,6 +47,9 @@ template <mc::Real S> Subject cancelling_lobe(const char* name, double one_minus
         const S d = 1 + g * g - 2 * g * w.z();
         return (1 - g * g) / (4 * pi<S> * d * std::sqrt(d));
       });
+  // d >= (1 - g)^2 is a difference of numbers near 2, each rounded by up to epsilon.
+  subject.mass_tolerance = 1.5 * 2 * std::numeric_limits<S>::epsilon() / mc::sqr(one_minus_g);
+  return subject;
 }
 
 // Returns the cosine of [Wood94] for three dimensions, by rejection. It does not end if 1 + 1 / (2 kappa) rounds to 1.
@@ -120,7 +127,8 @@ Subject uniform_outcomes(std::size_t n) {
 
 Subject random_rounded(std::uint64_t seed) {
   Pcg r(mc::hash(seed, 79));
-  switch (random_index(r, 5)) {
+  const auto kind = random_index(r, 5);
+  switch (kind) {
   case 0: {
     const double a = log_uniform(r, 0.05, 3), b = log_uniform(r, 0.05, 3);
     return beta_subject(a, b, a, b);
@@ -129,8 +137,11 @@ Subject random_rounded(std::uint64_t seed) {
     const std::array<double, 3> a{log_uniform(r, 0.15, 3), log_uniform(r, 0.15, 3), log_uniform(r, 0.15, 3)};
     return dirichlet_subject(a, a);
   }
-  case 2: return narrow_lobe(true, random_index(r, 2) == 0, log_uniform(r, 1e-5, 1));
-  case 3: return narrow_lobe(false, random_index(r, 2) == 0, log_uniform(r, 1e-14, 1));
+  case 2:
+  case 3: {
+    const bool in_float = kind == 2, of_wood = random_index(r, 2) == 0;
+    return narrow_lobe(in_float, of_wood, log_uniform(r, in_float ? 1e-5 : 1e-14, 1));
+  }
   default: return uniform_outcomes(static_cast<std::size_t>(log_uniform(r, 1, 1e7)));
   }
 }
