@@ -106,6 +106,23 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
   });
 }
 
+HelpSection automatic_section() {
+  return {
+      "How --method auto works",
+      {
+          {"1",
+           "rqmc: 16 scrambled Sobol' sequences, whose lengths double until their means agree to the wanted error."},
+          {"2", "From 4096 calls on, learns from half of the points where others should lie (a grid; a tree of boxes "
+                "where few points dominate). The other half forecasts whether new sequences there reach the wanted "
+                "error earlier."},
+          {"3", "If so, starts them, compares after as many calls, and keeps the better ones. Refines the density when "
+                "the calls have doubled."},
+          {"4", "Stops at the wanted error, but not before --min-calls, or at --max-calls."},
+          {"error bar", "Covers what the points met. No error bar covers a narrow peak that no point met: raise "
+                        "--min-calls, or name its place with --peak."},
+      }};
+}
+
 std::vector<double> probabilities(const std::string& list) {
   std::vector<double> all;
   if (list.empty()) return all;
@@ -368,7 +385,7 @@ Subcommand integrate_subcommand() {
             {"carlo integrate \"a*r\" --let \"r=sqrt(x*x+y*y)\" -d \"x=0:1,y=0:x\" --where \"r<1\" --set a=1:2:0.5",
              "integrates over a part of a triangle, for three values of a parameter"}},
        .failure = "the wanted error was not reached, or the error is not known",
-       .sections = {expression_section()}},
+       .sections = {automatic_section(), expression_section()}},
       rows, run_integrate);
 }
 
