@@ -9,7 +9,7 @@ cmake --preset lint >/dev/null
 cmake --build build/lint --target carlo_generated
 if [ $# -eq 0 ]; then
   cmake --build build/lint --target docs # an undocumented public symbol is an error
-  mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/\(bench\|lib\|tests\|tools\)" | sort -u)
+  mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/\(bench\|lib\|python\|tests\|tools\)" | sort -u)
   ./tests/layout/headers_compile_alone.sh clang++-14 "$PWD" "$PWD/libmc" "$PWD/librender" \
     "$(pkg-config --cflags-only-I eigen3 | sed 's/-I//; s/ *$//')"
 else

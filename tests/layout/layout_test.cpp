@@ -124,9 +124,27 @@ TEST(Layout, EveryPublicHeaderHasATest) {
 }
 
 TEST(Layout, TopLevelHasOnlyKnownEntries) {
-  const std::set<std::string> known = {
-      "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "libmc", "librender",    "tools",          "tests",
-      "bench",          "notebooks-data",    "build",     "out",     "docs",  "CHANGELOG.md", "CONTRIBUTING.md"};
+  const std::set<std::string> known = {"CMakeLists.txt",
+                                       "CMakePresets.json",
+                                       "README.md",
+                                       "LICENSE",
+                                       "libmc",
+                                       "librender",
+                                       "tools",
+                                       "python",
+                                       "tests",
+                                       "bench",
+                                       "notebooks-data",
+                                       "build",
+                                       "out",
+                                       "docs",
+                                       "CHANGELOG.md",
+                                       "CONTRIBUTING.md",
+                                       "CITATION.cff",
+                                       "Containerfile",
+                                       "pyproject.toml",
+                                       "setup.py",
+                                       "_skbuild"};
   for (const auto& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
     EXPECT_TRUE(file.starts_with(".") || known.contains(file))
@@ -175,6 +193,7 @@ TEST(Layout, ReadmeLinksExist) {
                                  "librender/scenes/README.md",
                                  "librender/scenes/GALLERY.md",
                                  "notebooks-data/README.md",
+                                 "python/README.md",
                                  "tests/refs/README.md",
                                  "tools/input/README.md",
                                  "tools/plugin/README.md",

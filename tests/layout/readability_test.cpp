@@ -11,7 +11,7 @@ namespace {
 
 using namespace layout;
 
-const std::vector<const char*> everything = {"libmc", "librender", "tools", "tests", "bench"};
+const std::vector<const char*> everything = {"libmc", "librender", "tools", "python", "tests", "bench"};
 
 struct Function {
   std::size_t line, length; ///< Number of the first line, from 1, and length in lines.

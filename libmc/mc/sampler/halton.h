@@ -51,6 +51,15 @@ class Halton {
     return scrambled(rest, base(dim), key, nested, tail);
   }
 
+  /// Coordinate `dim` of point `index` before scrambling, dim < dimensions: a quotient of whole numbers, rounded once.
+  static double radical_inverse(std::uint32_t index, std::uint32_t dim) {
+    std::uint64_t value = 0, scale = 1;
+    for (; index > 0; index /= base(dim)) {
+      value = value * base(dim) + index % base(dim);
+      scale *= base(dim);
+    }
+    return static_cast<double>(value) / static_cast<double>(scale);
+  }
   /// Prime base of dimension `dim`, dim < dimensions.
   static constexpr std::uint32_t base(std::uint32_t dim) { return primes[dim]; }
 

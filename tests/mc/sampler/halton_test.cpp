@@ -16,6 +16,14 @@ TEST(Halton, BasesArePrimes) {
   EXPECT_EQ(mc::Halton::base(1023), 8161u);
 }
 
+// The digits of 11 in base 2 are 1011, in base 3 they are 102.
+TEST(Halton, RadicalInverse_MirrorsDigits) {
+  EXPECT_EQ(mc::Halton::radical_inverse(0, 5), 0);
+  EXPECT_EQ(mc::Halton::radical_inverse(11, 0), 13.0 / 16);
+  EXPECT_EQ(mc::Halton::radical_inverse(11, 1), 19.0 / 27);
+  for (const std::uint32_t d : {0u, 1u, 1023u}) EXPECT_LT(mc::Halton::radical_inverse(0xffffffffu, d), 1);
+}
+
 TEST(Halton, AlignedBlocksFillEveryInterval) {
   for (const auto scramble : both)
     for (const std::uint32_t d : {0u, 1u, 2u, 5u, 1023u}) {

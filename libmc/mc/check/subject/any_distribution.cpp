@@ -233,12 +233,20 @@ std::vector<Subject::Coordinates> inverted_draws(const AnyDistribution& s, std::
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<Subject::Coordinates> inverted;
   inverted.reserve(n);
-  const auto invert = [&](const std::optional<AnyDistribution::Sample>& drawn) {
-    if (kind_of(s, drawn) != Kind::point) return;
-    const auto u = s.invert(drawn->x);
+  const auto add = [&](const std::optional<AnyDistribution::Uniforms>& u) {
     inverted.push_back(u ? Subject::Coordinates{(*u)[0], (*u)[1], (*u)[2]} : Subject::Coordinates{nan, nan, nan});
   };
-  in_batches(s, seed, n, [&](const std::vector<AnyDistribution::Uniforms>& u) { sample_each(s, u, invert); });
+  std::vector<PointArray> points;
+  in_batches(s, seed, n, [&](const std::vector<AnyDistribution::Uniforms>& u) {
+    points.clear();
+    sample_each(s, u, [&](const std::optional<AnyDistribution::Sample>& drawn) {
+      if (kind_of(s, drawn) == Kind::point) points.push_back(drawn->x);
+    });
+    if (s.invert_many)
+      for (const auto& one : s.invert_many(points)) add(one);
+    else
+      for (const PointArray& x : points) add(s.invert(x));
+  });
   return inverted;
 }
 

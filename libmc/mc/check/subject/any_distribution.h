@@ -124,6 +124,8 @@ struct AnyDistribution {
 
   /// Returns u with sample(u) = x. An inverse states that sample is one-to-one.
   std::function<std::optional<Uniforms>(const PointArray& x)> invert;
+  /// Returns the inverses of several x; requires `invert` and gives the same results.
+  std::function<std::vector<std::optional<Uniforms>>(std::span<const PointArray> x)> invert_many;
   /// Returns the integrand f >= 0 that the distribution is made for, its largest channel.
   std::function<double(const PointArray& x)> eval;
   std::optional<OracleDistribution> oracle;               ///< the same distribution over 50 digits

@@ -131,6 +131,22 @@ TEST(AnyDistribution, PdfMany_IsCalledOnce) {
   EXPECT_LT(questions, asked / 32);
 }
 
+TEST(AnyDistribution, InvertMany_EqualsInvert) {
+  AnyDistribution s = unit();
+  s.invert = [](const PointArray& x) { return std::optional(AnyDistribution::Uniforms{x[0]}); };
+  const auto single = make_subject(s).inverted(5, 1000);
+  int calls = 0;
+  s.invert_many = [&](std::span<const PointArray> x) {
+    ++calls;
+    std::vector<std::optional<AnyDistribution::Uniforms>> u;
+    for (const PointArray& one : x) u.emplace_back(AnyDistribution::Uniforms{one[0]});
+    return u;
+  };
+  EXPECT_EQ(make_subject(s).inverted(5, 1000), single);
+  EXPECT_GE(calls, 1);
+  EXPECT_LE(calls, 4);
+}
+
 TEST(AnyDistribution, Witness_DescribesDraw) {
   const mc::Subject subject = make_subject(unit());
   std::vector<mc::Subject::Draw> draws;

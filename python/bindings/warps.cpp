@@ -1,0 +1,170 @@
+#include "module.h"
+#include "warp.h"
+
+#include <mc/table/table_dist_1d.h>
+#include <mc/warp/mixture_n.h>
+#include <mc/warp/product.h>
+
+namespace bindings {
+
+namespace detail {
+void refuse_outside(const double* x, std::size_t columns, std::size_t index) {
+  throw mc::Error(fmt::format("point {} = {} lies outside of the domain", index, mc::format_numbers({x, columns}, 17)));
+}
+} // namespace detail
+
+namespace {
+
+Array sample(const AnyWarp& w, const ArrayLike& u, const py::object& out) {
+  const Rows rows = to_rows(u, w.uniforms(), "sample: u");
+  require_unit(rows, "sample: u");
+  Array x = rows_for(out, rows.outer, w.coordinates());
+  const double* in = rows.array.data();
+  double* to = x.mutable_data();
+  const py::gil_scoped_release release;
+  w.sample(w.held.get(), rows.count, in, to);
+  return x;
+}
+
+Array pdf(const AnyWarp& w, const ArrayLike& x, const py::object& out) {
+  const Rows rows = to_rows(x, w.coordinates(), "pdf: x");
+  Array density = rows_for(out, rows.outer, 1);
+  const double* in = rows.array.data();
+  double* to = density.mutable_data();
+  const py::gil_scoped_release release;
+  w.pdf(w.held.get(), rows.count, in, to);
+  return density;
+}
+
+Array invert(const AnyWarp& w, const ArrayLike& x, const py::object& out) {
+  mc::require(w.invert, "{}: has no inverse, because several u give the same point", w.name);
+  const Rows rows = to_rows(x, w.coordinates(), "invert: x");
+  Array u = rows_for(out, rows.outer, w.uniforms());
+  const double* in = rows.array.data();
+  double* to = u.mutable_data();
+  const py::gil_scoped_release release;
+  mc::with_context("invert", [&] { w.invert(w.held.get(), rows.count, in, to); });
+  return u;
+}
+
+bool have_equal_domains(const std::vector<AnyWarp>& warps) {
+  for (const AnyWarp& w : warps)
+    if (w.domain.text != warps.front().domain.text) return false;
+  return true;
+}
+
+template <int Dim, int Size>
+AnyWarp mixture_of(const std::string& name, const BoundDomain& domain, const std::vector<double>& weights,
+                   const std::vector<AnyWarp>& warps) {
+  std::vector<PartWarp<Dim, Size>> parts;
+  for (const AnyWarp& w : warps) parts.emplace_back(w);
+  const PartDomain<Dim, Size> on{std::make_shared<const mc::AnyDomain>(domain.any)};
+  AnyWarp any = any_warp(name, mc::MixtureN(on, mc::TableDist1D<double>(weights), std::move(parts)));
+  any.domain = domain;
+  return any;
+}
+
+struct Mixture {};
+struct Product {};
+
+BoundWarp<Mixture> make_mixture(const std::vector<double>& weights, const std::vector<AnyWarp>& warps,
+                                const py::object& on) {
+  mc::require(!warps.empty(), "Mixture: no warps; one or more are needed");
+  mc::require(!on.is_none() || have_equal_domains(warps),
+              "Mixture: the warps have different domains, {} and others; name a domain that contains them: domain=...",
+              warps.front().domain.text);
+  const BoundDomain domain = on.is_none() ? warps.front().domain : to_domain(on);
+  const int dim = domain.any.dim, size = domain.any.point_size;
+  std::string names;
+  for (const AnyWarp& w : warps) {
+    mc::require(w.domain.any.dim == dim && w.domain.any.point_size == size,
+                "Mixture: {} has points of {} coordinates, the domain {} of {}; they must agree", w.name,
+                w.domain.any.point_size, domain.text, size);
+    names += (names.empty() ? "" : ", ") + w.name;
+  }
+  const std::string name = fmt::format("Mixture([{:g}], [{}])", fmt::join(weights, ", "), names);
+  if (dim == 1) return BoundWarp<Mixture>(mixture_of<1, 1>(name, domain, weights, warps));
+  if (dim == 3) return BoundWarp<Mixture>(mixture_of<3, 3>(name, domain, weights, warps));
+  return BoundWarp<Mixture>(size == 2 ? mixture_of<2, 2>(name, domain, weights, warps)
+                                      : mixture_of<2, 3>(name, domain, weights, warps));
+}
+
+BoundWarp<Product> make_product(const AnyWarp& a, const AnyWarp& b) {
+  mc::require(a.uniforms() == 1 && b.uniforms() == 1, "Product: factors of {} and {} dimensions; both must have one",
+              a.uniforms(), b.uniforms());
+  const std::string name = fmt::format("Product({}, {})", a.name, b.name);
+  AnyWarp any = a.invert && b.invert ? any_warp(name, mc::Product{InvertiblePart<1, 1>(a), InvertiblePart<1, 1>(b)})
+                                     : any_warp(name, mc::Product{PartWarp<1, 1>(a), PartWarp<1, 1>(b)});
+  any.domain.text = a.domain.text + " x " + b.domain.text;
+  any.breaks = {a.breaks[0], b.breaks[0]};
+  return BoundWarp<Product>(std::move(any));
+}
+
+} // namespace
+
+mc::AnyDistribution to_distribution(const AnyWarp& w) {
+  using Uniforms = mc::AnyDistribution::Uniforms;
+  using Sample = mc::AnyDistribution::Sample;
+  mc::AnyDistribution d;
+  d.name = w.name;
+  d.domain = w.domain.any;
+  d.breaks = w.breaks;
+  d.uniforms = w.domain.any.dim;
+  d.sample = [w](const Uniforms& u) {
+    Sample s;
+    w.sample(w.held.get(), 1, u.data(), s.x.data());
+    return std::optional(s);
+  };
+  d.pdf = [w](const mc::PointArray& x) {
+    double density = 0;
+    w.pdf(w.held.get(), 1, x.data(), &density);
+    return density;
+  };
+  if (w.invert)
+    d.invert = [w](const mc::PointArray& x) {
+      Uniforms u{};
+      w.invert(w.held.get(), 1, x.data(), u.data());
+      return std::optional(u);
+    };
+  return d;
+}
+
+void bind_warps(py::module_& parent) {
+  py::module_ m = parent.def_submodule("warps", R"(Distributions as maps of uniform numbers, over double.
+
+Every warp has sample(u), pdf(x) and mostly invert(x), which take arrays of any length. An array of points has the shape
+(..., k) with k coordinates in the last axis; in one dimension any shape. The same holds for u.)");
+  py::class_<AnyWarp>(m, "Warp", R"(Base of all warps: a map from the unit cube, with its density.
+
+  sample(u) : u (..., dim) in [0,1) -> x (..., point_size)
+  pdf(x)    : x (..., point_size) -> (...), with respect to length, area, solid angle or volume; 0 outside the support
+  invert(x) : x (..., point_size) -> u (..., dim), so that invert(sample(u)) = u
+`out` takes an array for the results, as in NumPy.)")
+      .def("sample", &sample, py::arg("u"), py::kw_only(), py::arg("out") = py::none(),
+           "Points for uniform numbers: u (..., dim) in [0,1) -> x (..., point_size).")
+      .def("pdf", &pdf, py::arg("x"), py::kw_only(), py::arg("out") = py::none(),
+           "Density at points: x (..., point_size) -> (...); 0 outside the support.")
+      .def("invert", &invert, py::arg("x"), py::kw_only(), py::arg("out") = py::none(),
+           "Uniform numbers of points: x (..., point_size) -> u (..., dim). Raises Error for points outside the domain "
+           "and for warps without an inverse.")
+      .def_property_readonly(
+          "domain", [](const AnyWarp& w) { return w.domain; }, "The libmc.Domain of the points.")
+      .def_property_readonly(
+          "dim", [](const AnyWarp& w) { return w.uniforms(); }, "Uniform numbers for one point.")
+      .def_property_readonly(
+          "point_size", [](const AnyWarp& w) { return w.coordinates(); }, "Coordinates of a point.")
+      .def_property_readonly(
+          "is_invertible", [](const AnyWarp& w) { return w.invert != nullptr; }, "Whether invert is available.")
+      .def("__repr__", [](const AnyWarp& w) { return w.name; });
+  bind_intervals(m);
+  bind_planes(m);
+  bind_directions(m);
+  bind_lobes(m);
+  bind_tables(m);
+  py::class_<BoundWarp<Mixture>, AnyWarp>(m, "Mixture", contract("MixtureN").c_str())
+      .def(py::init(&make_mixture), py::arg("weights"), py::arg("warps"), py::arg("domain") = py::none());
+  py::class_<BoundWarp<Product>, AnyWarp>(m, "Product", contract("Product").c_str())
+      .def(py::init(&make_product), py::arg("first"), py::arg("second"));
+}
+
+} // namespace bindings

@@ -1,0 +1,2 @@
+from ._libmc.warps import *  # noqa: F403
+from ._libmc.warps import __doc__  # noqa: F401
