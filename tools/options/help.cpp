@@ -49,9 +49,7 @@ std::string exclusions_of(const Option& o) {
   return names.empty() ? "" : fmt::format(" Not with {}.", names);
 }
 
-std::string row(const Option& o, std::size_t columns) {
-  return term_row(term_of(o), o.help + exclusions_of(o) + default_of(o), columns, indent, hang);
-}
+HelpEntry entry(const Option& o) { return {term_of(o), o.help + exclusions_of(o) + default_of(o)}; }
 
 // The titles of the groups, in the order of their first options.
 std::vector<std::string> groups_of(const std::vector<Option>& options) {
@@ -62,21 +60,25 @@ std::vector<std::string> groups_of(const std::vector<Option>& options) {
   return titles;
 }
 
-std::string options_text(const std::vector<Option>& options, std::size_t columns) {
-  std::string text;
+std::vector<HelpSection> option_sections(const std::vector<Option>& options) {
+  std::vector<HelpSection> sections;
+  HelpSection arguments{"Arguments", {}};
   for (const Option& o : options)
-    if (is_positional(o)) text += (text.empty() ? "\nArguments:\n" : "") + row(o, columns);
+    if (is_positional(o)) arguments.entries.push_back(entry(o));
+  if (!arguments.entries.empty()) sections.push_back(std::move(arguments));
   const std::vector<std::string> titles = groups_of(options);
   for (const std::string& title : titles) {
-    text += fmt::format("\n{}:\n", title);
+    HelpSection group{title, {}};
     for (const Option& o : options)
-      if (!is_positional(o) && o.group == title) text += row(o, columns);
-    if (title == titles.front()) text += term_row(help_option, help_meaning, columns, indent, hang);
+      if (!is_positional(o) && o.group == title) group.entries.push_back(entry(o));
+    if (title == titles.front()) group.entries.push_back({help_option, help_meaning});
+    sections.push_back(std::move(group));
   }
-  return text;
+  return sections;
 }
 
 std::string section_text(const HelpSection& section, std::size_t columns) {
+  if (section.title.empty()) return "\n" + wrapped(section.entries.front().text, columns);
   std::string text = fmt::format("\n{}:\n", section.title);
   for (const HelpEntry& e : section.entries)
     text += e.term.empty() ? wrapped(e.text, columns, indent) : term_row(e.term, e.text, columns, indent, hang);
@@ -89,19 +91,19 @@ std::string examples_text(const std::vector<HelpEntry>& examples, std::size_t co
   return text;
 }
 
-std::string exit_codes(const std::string& failure, std::size_t columns) {
+HelpSection exit_codes(const std::string& failure) {
   HelpSection codes{"Exit codes", {{"0", "done"}}};
   if (!failure.empty()) codes.entries.push_back({"1", failure});
   codes.entries.push_back({"2", "bad usage, file or value; one line says what to do"});
   codes.entries.push_back(
       {"130, 143", "interrupted by Ctrl-C, by SIGTERM (by signal N: 128 + N); the results so far are kept"});
   codes.entries.push_back({"141", "nothing reads the output any more, as behind | head"});
-  return section_text(codes, columns);
+  return codes;
 }
 
 // "carlo render [OPTIONS] SCENE".
 std::string usage_of(const Subcommand& c) {
-  std::string text = fmt::format("Usage: carlo {} [OPTIONS]", c.about.name);
+  std::string text = fmt::format("carlo {} [OPTIONS]", c.about.name);
   for (const Option& o : c.options) {
     if (!is_positional(o)) continue;
     const bool is_list = std::holds_alternative<std::vector<std::string>*>(o.destination);
@@ -123,29 +125,48 @@ std::vector<Option> in_groups(std::vector<OptionGroup> groups) {
   return all;
 }
 
-std::string help_of(const Subcommand& subcommand, std::size_t columns) {
-  const About& about = subcommand.about;
-  std::string text = wrapped(about.summary + ".", columns) + "\n" + wrapped(usage_of(subcommand), columns);
-  if (!about.examples.empty()) text += examples_text(about.examples, columns);
-  text += options_text(subcommand.options, columns);
-  for (const HelpSection& s : about.sections) text += section_text(s, columns);
-  return text + exit_codes(about.failure, columns);
+HelpPage help_page(const Subcommand& c) {
+  HelpPage page{c.about.summary, usage_of(c), c.about.examples, option_sections(c.options)};
+  page.sections.insert(page.sections.end(), c.about.sections.begin(), c.about.sections.end());
+  page.sections.push_back(exit_codes(c.about.failure));
+  return page;
 }
 
-std::string help_of(const std::vector<Subcommand>& subcommands, std::size_t columns) {
-  std::string text = wrapped(carlo_summary, columns) + "\nUsage: carlo COMMAND [OPTIONS]\n";
-  text += examples_text({{"carlo validate CosineHemisphere", "checks a distribution of the library"},
-                         {"carlo integrate \"exp(-x*x)*cos(y)\" -d \"x=0:1,y=-1:2\"", "integrates an expression"},
-                         {"carlo render cbox --spp 64", "renders the Cornell box to cbox.exr"}},
-                        columns);
+HelpPage help_page(const std::vector<Subcommand>& subcommands) {
+  HelpPage page{carlo_summary,
+                "carlo COMMAND [OPTIONS]",
+                {{"carlo validate CosineHemisphere", "checks a distribution of the library"},
+                 {"carlo integrate \"exp(-x*x)*cos(y)\" -d \"x=0:1,y=-1:2\"", "integrates an expression"},
+                 {"carlo render cbox --spp 64", "renders the Cornell box to cbox.exr"}},
+                {}};
   HelpSection commands{"Commands", {}};
   for (const Subcommand& c : subcommands)
     if (!c.about.hidden) commands.entries.push_back({c.about.name, c.about.summary + "."});
-  text += section_text(commands, columns);
-  text +=
-      section_text({"Options", {{help_option, help_meaning}, {"--version", "Print the version, and stop."}}}, columns);
-  text += "\n" + wrapped("carlo COMMAND --help explains a command with its options.", columns);
-  return text + exit_codes("a check failed, or a wanted error was not reached", columns);
+  page.sections = {std::move(commands),
+                   {"Options", {{help_option, help_meaning}, {"--version", "Print the version, and stop."}}},
+                   {"", {{"", "carlo COMMAND --help explains a command with its options."}}},
+                   exit_codes("a check failed, or a wanted error was not reached")};
+  return page;
+}
+
+namespace {
+
+std::string terminal_text(const HelpPage& page, std::size_t columns) {
+  const std::string stop = page.summary.ends_with('.') ? "" : ".";
+  std::string text = wrapped(page.summary + stop, columns) + "\n" + wrapped("Usage: " + page.usage, columns);
+  if (!page.examples.empty()) text += examples_text(page.examples, columns);
+  for (const HelpSection& s : page.sections) text += section_text(s, columns);
+  return text;
+}
+
+} // namespace
+
+std::string help_of(const Subcommand& subcommand, std::size_t columns) {
+  return terminal_text(help_page(subcommand), columns);
+}
+
+std::string help_of(const std::vector<Subcommand>& subcommands, std::size_t columns) {
+  return terminal_text(help_page(subcommands), columns);
 }
 
 } // namespace carlo

@@ -9,6 +9,16 @@
 
 namespace carlo {
 
+/// The parts of a help text, for the terminal and for manual pages.
+struct HelpPage {
+  std::string summary, usage;        ///< "carlo render [OPTIONS] SCENE"
+  std::vector<HelpEntry> examples;   ///< command lines with their effects
+  std::vector<HelpSection> sections; ///< options by group, explanations, exit codes
+};
+HelpPage help_page(const Subcommand& subcommand);
+/// The help of carlo as a whole.
+HelpPage help_page(const std::vector<Subcommand>& subcommands);
+
 /// `carlo NAME --help`: usage, examples, options by group, further sections, exit codes, at most `columns` wide.
 std::string help_of(const Subcommand& subcommand, std::size_t columns);
 
