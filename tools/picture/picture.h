@@ -24,7 +24,7 @@ std::string invalid_samples_text(const render::RenderResult& result, const Prove
 /// were rendered, the others repeat the nearest".
 std::string interruption_text(const render::RenderResult& result);
 
-/// Version and commit of this carlo, "0.1.0 (1a2b3c4)".
+/// Version and commit of this carlo, "0.2.0 (1a2b3c4)".
 std::string build_name();
 
 /// Writes scene, command, commit, seed, samples and progress into the picture's metadata.
