@@ -21,6 +21,13 @@ class ArrayLike : public py::object {
   PYBIND11_OBJECT_DEFAULT(ArrayLike, py::object, [](PyObject*) { return true; })
 };
 
+/// The name of a file: text, or an object with __fspath__.
+class PathLike : public py::object {
+ public:
+  PYBIND11_OBJECT_DEFAULT(PathLike, py::object, [](PyObject*) { return true; })
+  std::string text() const { return py::str(py::module_::import("os").attr("fspath")(*this)).cast<std::string>(); }
+};
+
 /// A contiguous array of doubles.
 using Array = py::array_t<double, py::array::c_style>;
 
@@ -71,4 +78,7 @@ void require_unit(const Rows& u, const std::string& what);
 /// The name in signatures.
 template <> struct pybind11::detail::handle_type_name<bindings::ArrayLike> {
   static constexpr auto name = const_name("ArrayLike");
+};
+template <> struct pybind11::detail::handle_type_name<bindings::PathLike> {
+  static constexpr auto name = const_name("Union[str, os.PathLike]");
 };

@@ -300,8 +300,8 @@ void bind_density(py::module_& m) {
       .def("sample", &sample_density, arg("u"), "u (..., dim) -> points x (..., dim) and their densities (...).")
       .def("pdf", &density_at, arg("x"), "Density at points of the unit cube: x (..., dim) -> (...).")
       .def(
-          "save", [](const mc::AdaptedDensity& d, const std::string& path) { mc::save_density(path, d); }, arg("path"),
-          "Writes it to a file, for load_density and carlo integrate --density.")
+          "save", [](const mc::AdaptedDensity& d, const PathLike& path) { mc::save_density(path.text(), d); },
+          arg("path"), "Writes it to a file, for load_density and carlo integrate --density.")
       .def(py::pickle(
           [](const mc::AdaptedDensity& d) { return mc::to_text(d); },
           [](const std::string& text) { return std::make_shared<mc::AdaptedDensity>(mc::density_from_text(text)); }))
@@ -310,8 +310,8 @@ void bind_density(py::module_& m) {
       });
   m.def(
       "load_density",
-      [](const std::string& path) { return std::make_shared<mc::AdaptedDensity>(mc::load_density(path)); }, arg("path"),
-      "Reads a density that AdaptedDensity.save or carlo integrate --save-density wrote.");
+      [](const PathLike& path) { return std::make_shared<mc::AdaptedDensity>(mc::load_density(path.text())); },
+      arg("path"), "Reads a density that AdaptedDensity.save or carlo integrate --save-density wrote.");
 }
 
 } // namespace

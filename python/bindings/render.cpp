@@ -69,7 +69,7 @@ Picture make_picture(const ArrayLike& radiance, const py::object& variance, std:
 // The image at a path, or of a picture.
 Image to_image(const py::handle& object) {
   if (py::isinstance<Picture>(object)) return object.cast<const Picture&>().image;
-  return render::read_image(py::str(object).cast<std::string>());
+  return render::read_image(py::reinterpret_borrow<PathLike>(object).text());
 }
 std::string name_of(const py::handle& object, const char* name) {
   return py::isinstance<Picture>(object) ? name : py::str(object).cast<std::string>();
@@ -260,8 +260,8 @@ void bind_picture(py::module_& m) {
       .def_property_readonly("invalid", of_result(&Result::invalid), "Samples that were not finite; they are left out.")
       .def(
           "save",
-          [](const Picture& p, const std::string& path, double exposure, const std::string& tone) {
-            render::write_image(path, p.image, {render::tone_curve_from(tone), exposure});
+          [](const Picture& p, const PathLike& path, double exposure, const std::string& tone) {
+            render::write_image(path.text(), p.image, {render::tone_curve_from(tone), exposure});
           },
           arg("path"), arg("exposure") = 0.0, arg("tone") = "clamp",
           "Writes .exr (with variance and layers), .pfm, or .png by `exposure` [stops] and `tone`: clamp, reinhard or "
@@ -326,7 +326,7 @@ void bind_render(py::module_& m) {
   using Crop = std::array<int, 4>;
   m.def(
       "render",
-      [](const py::object& scene, std::optional<std::pair<int, int>> size, std::optional<Crop> crop,
+      [](const PathLike& scene, std::optional<std::pair<int, int>> size, std::optional<Crop> crop,
          std::optional<int> spp, std::optional<double> seconds, std::optional<double> target_error,
          std::optional<bool> adaptive, std::optional<std::string> strategy, std::optional<std::string> sampler,
          bool splat, bool tiles, int branches, std::optional<int> max_depth, std::uint64_t seed, int threads,
@@ -341,7 +341,7 @@ void bind_render(py::module_& m) {
         s.options.branches = branches;
         s.options.seed = seed;
         s.options.threads = threads;
-        return render_scene(py::str(scene).cast<std::string>(), s, progress);
+        return render_scene(scene.text(), s, progress);
       },
       arg("scene"), py::kw_only(), arg("size") = py::none(), arg("crop") = py::none(), arg("spp") = py::none(),
       arg("seconds") = py::none(), arg("target_error") = py::none(), arg("adaptive") = py::none(),
@@ -349,9 +349,8 @@ void bind_render(py::module_& m) {
       arg("branches") = 2, arg("max_depth") = py::none(), arg("seed") = 0, arg("threads") = 0, arg("layers") = false,
       arg("dialect") = "mitsuba", arg("variables") = py::dict(), arg("progress") = py::none(), render_doc);
   m.def(
-      "read_image",
-      [](const py::object& path) { return Picture{render::read_image(py::str(path).cast<std::string>())}; },
-      arg("path"), "Reads .exr (with its variance), .hdr, .pfm, .png or .jpg as a Picture.");
+      "read_image", [](const PathLike& path) { return Picture{render::read_image(path.text())}; }, arg("path"),
+      "Reads .exr (with its variance), .hdr, .pfm, .png or .jpg as a Picture.");
   m.def("compare", &compare, arg("a"), arg("b"), arg("alpha") = 0.01, arg("tolerance") = 0.0,
         R"(Compares two pictures, or their files: error metrics, and t-tests where the variances are known.
 

@@ -166,7 +166,7 @@ void bind_report(py::module_& m) {
       .def(
           "to_json", [](const mc::Report& r) { return carlo::json_text(carlo::to_json(r)); }, "The report as JSON.")
       .def(
-          "save_page", [](const mc::Report& r, const std::string& path) { mc::write_file(path, page_of(r)); },
+          "save_page", [](const mc::Report& r, const PathLike& path) { mc::write_file(path.text(), page_of(r)); },
           arg("path"), "Writes the page of carlo validate, one HTML file with maps of the counts.")
       .def("__repr__", [](const mc::Report& r) { return r.to_string(mc::ReportText::brief, "; text() shows them"); });
 }

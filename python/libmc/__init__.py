@@ -8,13 +8,13 @@
 The C++ library computes everything; arrays are NumPy's.
 """
 
-from ._libmc import *  # noqa: F403, I001
 from . import _libmc, mis, points, samplers, warps
 from ._libmc import __version__
 
 _submodules = ["mis", "points", "samplers", "warps"]
 _names = [name for name in dir(_libmc) if not name.startswith("_") and name not in _submodules]
 __all__ = ["__version__", "assert_distribution"] + _submodules + _names
+globals().update({name: getattr(_libmc, name) for name in _names})
 
 # Users see the names of the package, in messages and in pickles.
 for _part in [_libmc] + [getattr(_libmc, name) for name in _submodules]:

@@ -13,6 +13,7 @@ import libmc
 import libmc._libmc
 
 HEAD = """# Written by stubs.py.
+import os
 from typing import Any, Callable, Dict, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Builds the packages for any machine of the architecture: .deb files, the source archive and the wheel, and tests them.
+# Usage: tools/package.sh [--no-tests]   The result is in build/package and build/package/wheel.
+#   --no-tests  only the .deb files
+set -eu
+cd "$(dirname "$0")/.."
+./tools/bootstrap.sh python3-skbuild python3-pip python3-wheel python3-venv dpkg-dev
+cmake --preset package
+cmake --build --preset package
+cd build/package
+rm -f ./*.deb
+cpack -G DEB >/dev/null
+ls -1 ./*.deb
+[ "${1:-}" != --no-tests ] || exit 0
+
+cpack --config CPackSourceConfig.cmake >/dev/null
+../../tests/packages/check_debs.sh "$PWD"
+rm -rf wheel
+/usr/bin/python3 -m pip wheel --no-build-isolation --no-deps --wheel-dir wheel ../..
+../../tests/packages/check_wheel.sh wheel/*.whl
