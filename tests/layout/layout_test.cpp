@@ -132,6 +132,7 @@ TEST(Layout, TopLevelHasOnlyKnownEntries) {
                                        "librender",
                                        "tools",
                                        "python",
+                                       "examples",
                                        "tests",
                                        "bench",
                                        "notebooks-data",
@@ -180,9 +181,9 @@ TEST(Layout, InstalledHeadersDoNotDependOnInstructionSet) {
 TEST(Layout, ReadmeExamplesAreCompiled) {
   EXPECT_NE(text_of("README.md").find("```cpp\n" + text_of("tests/consumer/my_test.cpp") + "```"), std::string::npos)
       << "README.md: the test is not tests/consumer/my_test.cpp";
-  EXPECT_NE(text_of("tools/plugin/README.md").find("```c\n" + text_of("tests/consumer/mine.c") + "```"),
+  EXPECT_NE(text_of("tools/plugin/README.md").find("```c\n" + text_of("examples/plugin-c/mine.c") + "```"),
             std::string::npos)
-      << "tools/plugin/README.md: the plugin is not tests/consumer/mine.c";
+      << "tools/plugin/README.md: the plugin is not examples/plugin-c/mine.c";
 }
 
 // Links to files of the project lead to existing files.
@@ -194,6 +195,12 @@ TEST(Layout, ReadmeLinksExist) {
                                  "librender/scenes/GALLERY.md",
                                  "notebooks-data/README.md",
                                  "python/README.md",
+                                 "examples/README.md",
+                                 "examples/bsdf/README.md",
+                                 "examples/integrand/README.md",
+                                 "examples/plugin-fortran/README.md",
+                                 "examples/program-python/README.md",
+                                 "examples/batch-job/README.md",
                                  "tests/refs/README.md",
                                  "tools/input/README.md",
                                  "tools/plugin/README.md",

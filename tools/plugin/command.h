@@ -6,7 +6,7 @@
 ///                                    of columns of --domain.
 ///   "pdf N C\n" and N C numbers    : N points x of the domain. Answer: N numbers, the densities; for discrete outcomes
 ///                                    their probabilities.
-/// tests/tools/commands/sampler.py is an example in 30 lines.
+/// examples/program-python/sampler.py is an example in 30 lines.
 
 #include <plugin/worker.h>
 

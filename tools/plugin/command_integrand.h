@@ -2,7 +2,7 @@
 /// The integrand of a program that answers over pipes, see program.h.
 ///
 /// Question: "eval N D\n" and N D numbers, N points x of the domain. Answer: N C numbers, the C outputs at each point.
-/// tests/tools/commands/integrand.py is an example in 20 lines.
+/// examples/program-python/integrand.py is an example in 20 lines.
 
 #include <converge/integral_target.h>
 #include <integrands/joint_integrand.h>

@@ -18,7 +18,7 @@ using testing::AllOf, testing::HasSubstr;
 struct CommandIntegrand : support::ScratchTest {
   // The example with another body of `eval`.
   std::string program(const std::string& body = "return (x[0] * x[1] ** 2,)") const {
-    std::string text = mc::read_file(MC_SOURCE_DIR "/tests/tools/commands/integrand.py");
+    std::string text = mc::read_file(MC_SOURCE_DIR "/examples/program-python/integrand.py");
     const std::string own = "return (x[0] * x[1] ** 2,)";
     text.replace(text.find(own), own.size(), body);
     return "--command \"python3 '" + write("mine.py", text) + "'\" ";

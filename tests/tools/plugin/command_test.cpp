@@ -19,7 +19,7 @@ using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const std::string script = MC_SOURCE_DIR "/tests/tools/commands/sampler.py";
+const std::string script = MC_SOURCE_DIR "/examples/program-python/sampler.py";
 
 struct Command : support::ScratchTest {
   static ValidateCommandOptions options(const std::string& command, const std::string& domain = "disk") {

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 const std::string of_integrands = std::string("--importance-plugin '") + PLUGIN_DIR + "/integrands.so' ",
                   of_samplers = std::string("--importance-plugin '") + PLUGIN_DIR + "/samplers.so' ",
-                  disk = "--importance-command \"python3 '" MC_SOURCE_DIR "/tests/tools/commands/sampler.py'\" ";
+                  disk = "--importance-command \"python3 '" MC_SOURCE_DIR "/examples/program-python/sampler.py'\" ";
 
 struct ForeignDensity : support::ScratchTest {
   nlohmann::json integrated(const std::string& arguments) const {

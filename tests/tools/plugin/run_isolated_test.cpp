@@ -11,7 +11,7 @@ using support::refusal, support::run;
 using testing::AllOf, testing::AnyOf;
 using testing::HasSubstr;
 
-const std::string sampler_program = MC_SOURCE_DIR "/tests/tools/commands/sampler.py";
+const std::string sampler_program = MC_SOURCE_DIR "/examples/program-python/sampler.py";
 
 struct Isolated : support::ScratchTest {
   // A program that runs these lines of Python before the sampler, with a limit of half a GiB.
