@@ -26,7 +26,7 @@ setup(
         "-DMC_PYTHON=ON",
         "-DMC_NATIVE=OFF",  # a wheel may move to another machine
         "-DMC_BUILD_TESTS=OFF",
-        "-DMC_PYTHON_DIR=.",
+        "-DMC_PYTHON_PACKAGE_DIR=libmc",
         "-DCMAKE_INSTALL_BINDIR=libmc/bin",
         "-DCMAKE_INSTALL_DATAROOTDIR=libmc/share",
         "-DCMAKE_INSTALL_DATADIR=libmc/share",

@@ -34,7 +34,7 @@ template <class W> void time_of(const char* name, const W& warp) {
     mc::sample_n(warp, in, out);
     best = std::min(best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count());
   }
-  std::printf("%s,%.3f\n", name, best / samples);
+  std::printf("\"%s\",%.3f\n", name, best / samples);
 }
 
 } // namespace
