@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <limits>
 
 namespace checker_bench {
 namespace {
@@ -36,7 +35,7 @@ double log_gamma(Pcg& q, double shape) {
 // A lobe of width (1 - g)^2 by the usual formula, which cancels near the pole.
 template <mc::Real S> Subject cancelling_lobe(const char* name, double one_minus_g) {
   const S g = static_cast<S>(1 - one_minus_g);
-  Subject subject = make_subject(
+  return make_subject(
       fmt::format("{} of g = 1 - {:.3g}", name, one_minus_g), mc::Sphere<S>{},
       [g](Pcg& q) -> mc::Vec3<S> {
         const S u = q.uniform<S>(), phi = 2 * pi<S> * q.uniform<S>(), s = (1 - g * g) / (1 - g + 2 * g * u);
@@ -47,9 +46,6 @@ template <mc::Real S> Subject cancelling_lobe(const char* name, double one_minus
         const S d = 1 + g * g - 2 * g * w.z();
         return (1 - g * g) / (4 * pi<S> * d * std::sqrt(d));
       });
-  // d >= (1 - g)^2 is a difference of numbers near 2, each rounded by up to epsilon.
-  subject.mass_tolerance = 1.5 * 2 * std::numeric_limits<S>::epsilon() / mc::sqr(one_minus_g);
-  return subject;
 }
 
 // Returns the cosine of [Wood94] for three dimensions, by rejection. It does not end if 1 + 1 / (2 kappa) rounds to 1.

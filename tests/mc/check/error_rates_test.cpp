@@ -52,6 +52,18 @@ TEST(CheckerErrorRates, RoundedDistributions_AreNotRejected) {
   }
 }
 
+// Henyey-Greenstein by a formula that cancels. The density of float points errs by up to a few per cent, and so does its
+// integral. Each is rejected by chance with probability 1e-4.
+TEST(CheckerErrorRates, LobesByCancellingFormulas_AreNotRejected) {
+  for (int i = 0; i < 24; ++i) {
+    const double one_minus_g = std::pow(10, -0.5 - 0.1 * i);
+    const mc::Report r = check_subject(checker_bench::narrow_lobe(true, false, mc::sqr(one_minus_g)),
+                                       {.samples = 50'000, .seed = 1, .alpha = 1e-4, .open_interval = true});
+    EXPECT_NE(r.verdict(), Verdict::fail) << r.to_string();
+    EXPECT_TRUE(one_minus_g < 0.02 || r.passed()) << r.to_string();
+  }
+}
+
 // Each is missed with probability at most 0.01: more than 3 of 60 with probability 0.003.
 TEST(CheckerErrorRates, FaultsOfStatedSize_AreFound) {
   int missed = 0;

@@ -43,7 +43,7 @@ std::string_view name(Fault f) {
   case Fault::shape: return "shape: the samples follow a different density";
   case Fault::local: return "local: single cells contain too many or too few samples";
   case Fault::physics: return "physics: f violates reciprocity, energy conservation or its sign";
-  case Fault::rounding: return "rounding: the samples have too few distinct values for this density";
+  case Fault::rounding: return "rounding: too few distinct values for this density";
   case Fault::dependent: return "dependent: the samples depend on each other, or their counts are too even";
   case Fault::bias: return "bias: the mean of the estimates differs from the true value";
   }
