@@ -253,7 +253,9 @@ TEST(Integrate, StopsAtTheWantedError) {
 }
 
 TEST(Integrate, AutomaticPicksVegasWhereItHelps) {
-  EXPECT_EQ(mc::integrate_unit(peak, 2, with(Method::automatic, 300'000)).method, Method::vegas);
+  const auto in_four = [](Unit u) { return peak(u.first(2)) * peak(u.last(2)); };
+  EXPECT_EQ(mc::integrate_unit(in_four, 4, with(Method::automatic, 300'000)).method, Method::vegas);
+  EXPECT_EQ(mc::integrate_unit(peak, 2, with(Method::automatic, 300'000)).method, Method::rqmc); // interlaced points
   EXPECT_EQ(
       mc::integrate_unit([](Unit u) { return std::sin(6.28 * (u[0] + u[1])); }, 2, with(Method::automatic, 300'000))
           .method,

@@ -52,6 +52,8 @@ struct Run {
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
   /// Number of outputs that determine the end and the density.
   std::size_t primary() const { return evaluator.outputs - options().auxiliary_outputs; }
+  /// Whether the points of a stream are interlaced.
+  bool interlaced(Stream stream) const { return stream == Stream::rqmc && evaluator.dim <= 2; }
   /// Point sets of replicates [begin, end) of a round of a stream: interlaced Sobol' points for rqmc in up to two
   /// dimensions, else scrambled ones.
   std::vector<PointSet> sobol_sets(Stream stream, std::uint64_t round, std::uint32_t begin, std::uint32_t end) const;

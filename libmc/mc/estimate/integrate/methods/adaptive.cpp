@@ -18,6 +18,7 @@ constexpr double evenness = 0.5;                  // error of evenly spread poin
 constexpr double advantage = 1.25;                // by which a new density must be forecast to win: forecasts err
 constexpr double worth_another = 1.5;             // fall of the error that promises more
 constexpr double least_rate = 0.4, most_rate = 1; // that are trusted
+constexpr double interlaced_rate = 1.5;           // the same for interlaced points
 
 // Approximate time of a call [ns].
 double call_time(const Run& run, bool adapted) {
@@ -52,10 +53,12 @@ std::vector<double> wanted_errors(const Run& run, const Means& means) {
 }
 
 Forecast forecast(const Run& run, const Replicates& r) {
+  const bool adapted = r.proposal().density != nullptr;
   Forecast f{{},
              static_cast<double>(r.calls()),
-             std::clamp(r.rate(), least_rate, most_rate),
-             call_time(run, r.proposal().density != nullptr)};
+             std::clamp(r.rate(), least_rate,
+                        run.interlaced(adapted ? Stream::adapted : Stream::rqmc) ? interlaced_rate : most_rate),
+             call_time(run, adapted)};
   for (std::size_t k = 0; k < run.primary(); ++k) {
     const Mean& m = r.means()[k];
     const bool blind =
@@ -69,7 +72,7 @@ Forecast forecast(const Run& run, const Replicates& r) {
 // another density they gain as much as now, but not more than by a half.
 Forecast forecast(const Run& run, const Replicates& r, const Forecast& now, const Proposal& next,
                   const Samples& samples) {
-  Forecast f{{}, now.calls, now.rate, call_time(run, true)};
+  Forecast f{{}, now.calls, std::min(now.rate, most_rate), call_time(run, true)};
   const std::vector<double> before = variances(r.proposal(), samples), after = variances(next, samples);
   for (std::size_t k = 0; k < run.primary(); ++k) {
     const double gain = now.errors[k] / std::sqrt(before[k] / now.calls);
