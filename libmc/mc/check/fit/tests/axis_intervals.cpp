@@ -5,6 +5,7 @@
 #include <mc/stats/binomial.h>
 #include <mc/stats/multiple_testing.h>
 
+#include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,7 +76,8 @@ double chance_of_steps(const Subject& s, const AxisInterval& atom, double n) {
   const double widest = std::max(n * std::max(0x1p-31, s.epsilon), atom.per_length * widest_lattice_step(s.epsilon));
   const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, widest);
   const double at_a_place = (atom.equal - 1) * std::log(equal_to_one);
-  return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - std::lgamma(atom.equal + 1)));
+  // std::lgamma writes the global signgam, and so may not be called by several threads.
+  return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - boost::math::lgamma(atom.equal + 1)));
 }
 
 // A gap has the index of the sample below it; gap -1 is before the first sample.
