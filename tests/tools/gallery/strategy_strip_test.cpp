@@ -70,7 +70,7 @@ TEST(StrategyStrip, TableComparesEqualSamplesAndEqualTime) {
   ASSERT_EQ(samples.size(), 7u);
   ASSERT_EQ(time.size(), 7u);
   for (const auto& s : samples) EXPECT_EQ(s.spp, 64) << s.name;
-  for (const auto& t : time) EXPECT_GE(t.spp, 4) << t.name;
+  for (const auto& t : time) EXPECT_GE(t.spp, 2) << t.name; // a variance needs two
   const std::string text = carlo::strategy_table(samples, time);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 8);
   for (const auto& s : samples) EXPECT_THAT(text, HasSubstr("\n" + std::string(s.name) + " "));
