@@ -32,8 +32,9 @@ TEST(Manual, NoTextIsTakenForACommand) {
   EXPECT_THAT(text, HasSubstr("and \\en"));
   EXPECT_THAT(text, HasSubstr(".BR carlo (1),\n.BR carlo\\-y (1)\n"));
   for (const std::string_view line : mc::split(text, '\n'))
-    if (line.starts_with('.'))
+    if (line.starts_with('.')) {
       EXPECT_THAT(std::string(line.substr(0, 3)), testing::AnyOf(".TH", ".SH", ".PP", ".TP", ".B ", ".BR")) << line;
+    }
 }
 
 // groff reports commands that it does not know and fonts that stay open.
