@@ -318,8 +318,8 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
   }
 }
 
-// Relative change of the density when a point moves by one rounding step, averaged over the pilot. A formula that cancels
-// errs by as much at every point, and so may its integral.
+// Relative change of the density when a point moves by one rounding step, averaged over the pilot. A formula that
+// cancels errs by as much at every point, and so may its integral.
 double density_rounding(const Subject& s, const Pilot& pilot) {
   const std::size_t stride = pilot.points.size() / 1000 + 1;
   double sum = 0, used = 0;

@@ -52,8 +52,8 @@ TEST(CheckerErrorRates, RoundedDistributions_AreNotRejected) {
   }
 }
 
-// Henyey-Greenstein by a formula that cancels. The density of float points errs by up to a few per cent, and so does its
-// integral. Each is rejected by chance with probability 1e-4.
+// Henyey-Greenstein by a formula that cancels. The density of float points errs by up to a few per cent, and so does
+// its integral. Each is rejected by chance with probability 1e-4.
 TEST(CheckerErrorRates, LobesByCancellingFormulas_AreNotRejected) {
   for (int i = 0; i < 24; ++i) {
     const double one_minus_g = std::pow(10, -0.5 - 0.1 * i);
