@@ -1,6 +1,7 @@
 #include <mc/check/fit/unresolved_ends.h>
 
 #include <mc/check/fit/pilot.h>
+#include <mc/core/types.h>
 #include <mc/random/hash.h>
 #include <mc/random/uniform.h>
 
@@ -63,10 +64,13 @@ std::optional<double> average(const Subject& s, const Coordinates& v, std::size_
   constexpr double far = 64, near = 0.25;
   const double edge = density(*width), outside = density(far * *width), inside = density(near * *width);
   if (!is_positive(edge) || !is_positive(outside) || !is_positive(inside)) return {};
-  // The density is proportional to distance^(exponent - 1).
+  // The density is proportional to distance^(exponent - 1), and rises within the layer by at least half of that: the
+  // flank of a smooth lobe falls as steeply, but its top is flat.
   const double exponent = 1 + std::log(outside / edge) / std::log(far);
   const double continued = edge * std::pow(near, exponent - 1);
-  if (!(exponent > 0 && exponent < 0.95 && inside < 1.5 * continued && inside > continued / 1.5)) return {};
+  const bool is_continued =
+      inside < 1.5 * continued && inside > continued / 1.5 && sqr(inside / edge) > continued / edge;
+  if (!(exponent > 0 && exponent < 0.95 && is_continued)) return {};
   return edge / exponent;
 }
 

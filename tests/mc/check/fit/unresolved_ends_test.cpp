@@ -104,4 +104,16 @@ TEST(UnresolvedEnds, SamplesOnPoles_AreWarning) {
   EXPECT_NE(r.to_string().find("pass (boundary of measure zero)"), std::string::npos) << r.to_string();
 }
 
+// The flank of a lobe falls like a pole, but its top is flat.
+TEST(UnresolvedEnds, SmoothLobe_IsNotAveraged) {
+  for (double width = 3e-5; width < 1e-2; width *= 2) {
+    mc::Subject lobe = checker_bench::narrow_lobe(false, false, width);
+    lobe.resolution = [](const mc::Subject::Coordinates&, int) { return 0x1p-24; }; // as of a float
+    const mc::Subject averaged = average_unresolved_ends(lobe);
+    for (double distance = 0x1p-23; distance < 0x1p-16; distance *= 1.5)
+      for (const double v : {distance, 1 - distance})
+        EXPECT_EQ(averaged.density({v, 0.3, 0}), lobe.density({v, 0.3, 0})) << width << " " << v;
+  }
+}
+
 } // namespace
