@@ -5,10 +5,10 @@
 #include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/lattice.h>
 #include <mc/check/fit/tests/axis_intervals.h>
-#include <mc/check/fit/tests/coarse_axes.h>
 #include <mc/check/fit/tests/density_ratio.h>
 #include <mc/check/fit/tests/marginal_bins.h>
 #include <mc/check/fit/tests/rotation.h>
+#include <mc/check/fit/tests/rounding.h>
 #include <mc/check/fit/tests/spectrum.h>
 #include <mc/check/fit/tests/uniformity.h>
 #include <mc/check/fit/unresolved_ends.h>
@@ -318,63 +318,6 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
   }
 }
 
-// Relative change of the density when a point moves by one rounding step, averaged over the pilot. A formula that
-// cancels errs by as much at every point, and so may its integral.
-double density_rounding(const Subject& s, const Pilot& pilot) {
-  const std::size_t stride = pilot.points.size() / 1000 + 1;
-  double sum = 0, used = 0;
-  for (std::size_t i = 0; i < pilot.points.size(); i += stride) {
-    double change = 0;
-    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
-      Subject::Coordinates v = pilot.points[i];
-      v[d] += (v[d] < 0.5 ? 1 : -1) * rounding_step(s, v, d);
-      change += std::abs(s.density(v) / pilot.densities[i] - 1);
-    }
-    if (!std::isfinite(change)) continue;
-    sum += change;
-    used += 1;
-  }
-  return sum / std::max(used, 1.0);
-}
-
-// A wrong integral within the rounding of the density is not conclusive.
-void recognise_rounded_mass(const Subject& s, const Pilot& pilot, const ClaimedMass& mass, Check& test) {
-  if (test.verdict != Verdict::fail || test.fault != Fault::mass || s.dim == 0) return;
-  const double rounding = density_rounding(s, pilot);
-  if (std::abs(mass.value - 1) > mass.error + s.mass_tolerance + rounding) return;
-  test.verdict = Verdict::inconclusive;
-  test.fault = Fault::rounding;
-  test.detail =
-      fmt::format("the density changes by {:.2g} % between neighbouring points, and so its integral, {:.6g} +- "
-                  "{:.2g}, cannot be told from 1: compute it without cancellation, or use a wider scalar",
-                  100 * rounding, mass.value, mass.error);
-}
-
-// Coarse rounding is a warning. It explains failed statistical tests of the density, except along other axes: those
-// tests are not conclusive.
-void recognise_rounding(const Subject& s, const Pilot& pilot, std::vector<Check>& checks) {
-  const std::vector<CoarseAxis> coarse = find_coarse_axes(s, pilot);
-  if (coarse.empty()) return;
-  const auto is_of_another_axis = [&](const Check& c) {
-    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
-      if (c.name.ends_with(", " + axis_name(s.axes, d)))
-        return std::none_of(coarse.begin(), coarse.end(), [&](const CoarseAxis& a) { return a.axis == d; });
-    return false;
-  };
-  bool any = false;
-  for (Check& c : checks) {
-    const bool density = c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom;
-    if (c.verdict != Verdict::fail || !c.p || !density || is_of_another_axis(c)) continue;
-    c.verdict = Verdict::inconclusive;
-    any = true;
-  }
-  for (std::size_t i = 0; i < coarse.size(); ++i) {
-    Check finding = coarse[i].finding;
-    finding.verdict = any ? Verdict::inconclusive : Verdict::warning;
-    checks.insert(checks.begin() + static_cast<std::ptrdiff_t>(i), std::move(finding));
-  }
-}
-
 } // namespace
 
 Report check_subject(const Subject& given, const SubjectOptions& options) {
@@ -423,7 +366,7 @@ Report check_subject(const Subject& given, const SubjectOptions& options) {
   CellTests tests = judge_counts(s, layout, counts.cells, counts.stats, options.alpha);
   const std::string region = describe_worst_region(s, layout.boxes, layout.cells);
   Check mass_test = test_mass(s, mass, options.alpha);
-  recognise_rounded_mass(s, pilot, mass, mass_test);
+  explain_mass_by_rounding(s, pilot, mass, mass_test);
   const bool of_samples = is_of_samples(mass_test, mass, tests.checks);
   if (of_samples || mass_test.fault == Fault::shape) blame_samples(mass_test, region);
   if (!of_samples) report.checks.push_back(mass_test);
@@ -442,7 +385,7 @@ Report check_subject(const Subject& given, const SubjectOptions& options) {
   judge_intervals(AxisInterval::Kind::gap); // after the shape tests, which also find wide gaps
   if (s.dim > 0) append(report.checks, judge_detail(s, pilot, layout, counts, mass.value, options.alpha));
   if (s.may_fail) report.checks.push_back(test_failures(s, counts.stats, mass.value, mass.error, options.alpha));
-  recognise_rounding(s, pilot, report.checks);
+  explain_by_rounding(s, pilot, report.checks);
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
 
