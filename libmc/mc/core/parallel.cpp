@@ -38,7 +38,8 @@ void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>&
     }
   };
   std::vector<std::jthread> pool;
-  for (int i = 0; i < threads; ++i) pool.emplace_back(work);
+  for (int i = 1; i < threads; ++i) pool.emplace_back(work);
+  work();       // as with TBB; a thread that only waits would not see signals
   pool.clear(); // joins the threads
   if (first) std::rethrow_exception(first);
 }
