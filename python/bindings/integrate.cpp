@@ -301,7 +301,7 @@ void bind_density(py::module_& m) {
       .def("pdf", &density_at, arg("x"), "Density at points of the unit cube: x (..., dim) -> (...).")
       .def(
           "save", [](const mc::AdaptedDensity& d, const PathLike& path) { mc::save_density(path.text(), d); },
-          arg("path"), "Writes it to a file, for load_density and carlo integrate --density.")
+          arg("path"), "Writes it to a file, for load_density and carlo integrate --load-density.")
       .def(py::pickle(
           [](const mc::AdaptedDensity& d) { return mc::to_text(d); },
           [](const std::string& text) { return std::make_shared<mc::AdaptedDensity>(mc::density_from_text(text)); }))

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 #include <optional>
 
 namespace bindings {
@@ -159,11 +158,8 @@ Picture render_scene(const std::string& scene, const RenderSettings& s, const py
   render::RenderOptions options = options_of(s, read.defaults, named);
   std::atomic<bool> cancel = false;
   options.cancel = &cancel;
-  std::mutex mutex;
   if (!progress.is_none())
     options.progress = [&](const render::Progress& p) {
-      const std::unique_lock one_at_a_time(mutex, std::try_to_lock);
-      if (!one_at_a_time) return; // another row is being reported
       const py::gil_scoped_acquire lock;
       progress(p.fraction, p.samples, p.seconds, p.relative_error);
     };

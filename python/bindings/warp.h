@@ -188,8 +188,7 @@ template <class W> py::class_<BoundWarp<W>, AnyWarp> warp_class(py::module_& m, 
   return py::class_<BoundWarp<W>, AnyWarp>(m, name, contract(name).c_str());
 }
 
-/// A constructor for Python: W from numbers with names, for example
-///   .def(number_arguments<Tent>("Tent", {"center", "radius"})).
+/// A warp for Python; its name is the format with the arguments, such as "Tent(center={:g}, radius={:g})".
 template <class W, class... Args> auto make_warp(const char* format, const W& warp, Args&&... args) {
   return BoundWarp<W>(any_warp(fmt::format(fmt::runtime(format), args...), warp));
 }
