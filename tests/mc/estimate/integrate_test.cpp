@@ -21,6 +21,15 @@ constexpr auto& methods = support::all_methods;
 double peak(Unit u) { // a product of two Lorentzians, 1 / (c^-2 + (u - w)^2)
   return 1 / ((1e-2 + mc::sqr(u[0] - 0.4)) * (1e-2 + mc::sqr(u[1] - 0.7)));
 }
+// Gaussians on a diagonal.
+double two_peaks(Unit u, double sigma) {
+  double a = 0, b = 0;
+  for (const double x : u) {
+    a += mc::sqr((x - 0.3) / sigma);
+    b += mc::sqr((x - 0.7) / sigma);
+  }
+  return std::exp(-a / 2) + std::exp(-b / 2);
+}
 double peak_truth() {
   const auto side = [](double w) { return 10 * (std::atan(10 * (1 - w)) + std::atan(10 * w)); };
   return side(0.4) * side(0.7);
@@ -197,14 +206,7 @@ TEST(Integrate, ConditionallyConvergent_ErrorIsUnknown) {
 
 // Two bounded peaks in 30 dimensions: their values span decades, but no variance is infinite.
 TEST(Integrate, PeaksInManyDimensions_AreNotCalledInfinite) {
-  const auto f = [](Unit u) {
-    double a = 0, b = 0;
-    for (const double x : u) {
-      a += mc::sqr((x - 0.3) / 0.2);
-      b += mc::sqr((x - 0.7) / 0.2);
-    }
-    return std::exp(-a / 2) + std::exp(-b / 2);
-  };
+  const auto f = [](Unit u) { return two_peaks(u, 0.2); };
   for (const Method method : methods)
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const mc::ErrorBar bar = mc::integrate_unit(f, 30, with(method, 200'000, seed)).error_bar;
@@ -266,14 +268,7 @@ TEST(Integrate, AutomaticPicksVegasWhereItHelps) {
 
 // A tree follows an integrand that no product of axes follows. automatic must select it, and its interval must cover.
 TEST(Integrate, AutomaticFollowsADiagonal) {
-  const auto two_peaks = [](Unit u) {
-    double a = 0, b = 0;
-    for (const double x : u) {
-      a += mc::sqr((x - 0.3) / 0.07);
-      b += mc::sqr((x - 0.7) / 0.07);
-    }
-    return std::exp(-a / 2) + std::exp(-b / 2);
-  };
+  const auto f = [](Unit u) { return two_peaks(u, 0.07); };
   double side = 1; // integral of one peak along each axis
   for (int d = 0; d < 5; ++d)
     side *= 0.07 * std::sqrt(mc::pi<double> / 2) *
@@ -283,8 +278,7 @@ TEST(Integrate, AutomaticFollowsADiagonal) {
   constexpr int runs = 30;
   for (std::uint64_t seed = 1; seed <= runs; ++seed)
     for (const int k : {0, 1}) {
-      const mc::Integral r =
-          mc::integrate_unit(two_peaks, 5, with(k ? Method::automatic : Method::rqmc, 100'000, seed));
+      const mc::Integral r = mc::integrate_unit(f, 5, with(k ? Method::automatic : Method::rqmc, 100'000, seed));
       squares[k] += mc::sqr(r.estimate.value / (2 * side) - 1);
       if (k) covered += r.interval.lo <= 2 * side && 2 * side <= r.interval.hi;
     }
