@@ -26,9 +26,9 @@ struct PageHeader {
 PageHeader converge_header(const std::string& command);
 PageHeader trade_header(const std::string& command);
 
-/// Writes FOLDER/index.html. A section for each target contains the answer in sentences and a table (carlo trade);
-/// the error against N and against its cost, with 95 % bands and the slopes of theory; a table of all curves; for a
-/// scene the reference and a picture of each method, as PNG files beside the page.
+/// Writes FOLDER/index.html, with a section for each target. It contains the answer in sentences and a table (carlo
+/// trade), and a table of all curves. Plots show the error against N and against its cost, with 95 % bands and the
+/// slopes of theory. For a scene, the reference and a picture of each method are PNG files beside the page.
 void write_convergence_page(ResultWriter& results, const std::filesystem::path& folder, const PageHeader& head,
                             const std::vector<PageEntry>& all);
 

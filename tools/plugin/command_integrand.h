@@ -23,8 +23,8 @@ struct CommandIntegrandOptions {
 
 /// Every thread that evaluates it uses a process of its own. A few hundred points are checked first.
 ///   throws : Error for bounds whose volume overflows, for a name that is no word or is repeated, and where the program
-///            misbehaves; if the check shows that the integrand is no function of x alone, or that its values depend on
-///            the other points of a question.
+///            misbehaves. Also where the check shows that a value depends on more than its point x, such as the other
+///            points of a question.
 JointIntegrand command_integrand(const CommandIntegrandOptions& options);
 
 /// Each output as a target. The CPU seconds are those of the program.
