@@ -1,7 +1,7 @@
 #include <mc/gtest/matchers.h>
 #include <mc/warp/hemisphere.h>
 
-// Half of the light, the same in all directions. The normal is z; wo and wi leave the surface, above it.
+// The normal is z; wo and wi leave the surface, above it.
 struct MyBsdf {
   struct Sample {
     mc::Vec3<float> wi;
