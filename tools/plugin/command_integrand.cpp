@@ -135,6 +135,7 @@ std::vector<IntegralTarget> command_targets(const CommandIntegrandOptions& optio
   std::vector<IntegralTarget> targets;
   for (std::size_t k = 0; k < started.all.outputs.size(); ++k) {
     IntegralTarget t;
+    t.is_foreign = true;
     t.integral = started.all.outputs[k];
     t.run = [started, k](const ReplicateTask& task) {
       return run_replicates([&](double& seconds) { return timed_output(started.all, started.f, k, seconds); }, task);

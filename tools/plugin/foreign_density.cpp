@@ -5,8 +5,8 @@
 #include <plugin/paced_program.h>
 #include <plugin/plugin.h>
 #include <plugin/plugin_integrand.h>
-#include <process/cpu_time.h>
 
+#include <mc/core/cpu_time.h>
 #include <mc/core/error.h>
 #include <mc/core/text.h>
 
@@ -114,7 +114,7 @@ void answer_samples(const json& request, CallMonitor& monitor) {
       row.back() = draw_one(u.subspan(i * shape.in, shape.in), row.first(shape.out - 1));
     }
   };
-  answer_rows(request, monitor, shape, draw, thread_cpu_seconds);
+  answer_rows(request, monitor, shape, draw, mc::thread_cpu_seconds);
 }
 
 } // namespace

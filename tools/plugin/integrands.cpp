@@ -3,8 +3,8 @@
 #include <plugin/integrands.h>
 #include <plugin/plugin.h>
 #include <plugin/plugin_integrand.h>
-#include <process/cpu_time.h>
 
+#include <mc/core/cpu_time.h>
 #include <mc/core/error.h>
 #include <mc/core/text.h>
 
@@ -165,7 +165,7 @@ json run_integrand_task(const json& request, CallMonitor& monitor) {
   if (task == "integrand") return run_replicates_of(f, request, monitor);
   if (task == "check integrand") require_pure(f, monitor);
   if (task == "integrand session")
-    answer_rows(request, monitor, shape_of(f), joint_of(f, monitor).f, thread_cpu_seconds);
+    answer_rows(request, monitor, shape_of(f), joint_of(f, monitor).f, mc::thread_cpu_seconds);
   return {};
 }
 
@@ -176,6 +176,7 @@ std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::v
     const auto is_checked = std::make_shared<bool>(false);
     for (std::size_t k = 0; k < one["outputs"].size(); ++k) {
       IntegralTarget t;
+      t.is_foreign = true;
       t.integral = integral_of(path, one, k);
       t.has_batch = one["batch"];
       t.run = [which = PluginOutput{path, one["index"], k}, worker, is_checked](const ReplicateTask& task) {

@@ -2,7 +2,8 @@
 /// A program that is asked about few points at a time if it is slow.
 
 #include <plugin/program.h>
-#include <process/cpu_time.h>
+
+#include <mc/core/cpu_time.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -23,10 +24,10 @@ class PacedProgram {
     const std::size_t count = rows.size() / width, answer_width = answer.size() / count;
     for (std::size_t first = 0, n = 0; first < count; first += n) {
       n = std::min(rows_, count - first);
-      const double start = clock_seconds(CLOCK_MONOTONIC);
+      const double start = mc::clock_seconds(CLOCK_MONOTONIC);
       program_.ask(what, argument, rows.subspan(first * width, n * width), width,
                    answer.subspan(first * answer_width, n * answer_width));
-      const double seconds = clock_seconds(CLOCK_MONOTONIC) - start;
+      const double seconds = mc::clock_seconds(CLOCK_MONOTONIC) - start;
       if (seconds > 0.5) rows_ = std::max<std::size_t>(n / 2, 1);
       else if (n == rows_ && seconds < 0.1) rows_ = std::min(2 * rows_, Program::most_rows);
     }

@@ -95,14 +95,14 @@ void Program::ended(const char* what) {
 
 double Program::cpu_seconds() {
   // Reading the list of processes takes milliseconds. A young program may still start processes.
-  const double now = clock_seconds(CLOCK_MONOTONIC);
+  const double now = mc::clock_seconds(CLOCK_MONOTONIC);
   if (now >= next_look_) {
     processes_ = descendants(getpid());
     next_look_ = now + std::clamp(now - start_, 0.01, 1.0);
   }
   for (const pid_t id : processes_) {
     clockid_t clock{};
-    if (clock_getcpuclockid(id, &clock) == 0) seconds_[id] = std::max(seconds_[id], clock_seconds(clock));
+    if (clock_getcpuclockid(id, &clock) == 0) seconds_[id] = std::max(seconds_[id], mc::clock_seconds(clock));
   }
   double sum = 0;
   for (const auto& [id, seconds] : seconds_) sum += seconds;

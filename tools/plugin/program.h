@@ -8,7 +8,8 @@
 
 #include <plugin/run_isolated.h>
 #include <process/child.h>
-#include <process/cpu_time.h>
+
+#include <mc/core/cpu_time.h>
 
 #include <cstddef>
 #include <map>
@@ -44,9 +45,9 @@ class Program {
   ChildProcess child_;
   CallMonitor& monitor_;
   std::vector<pid_t> processes_;
-  std::map<pid_t, double> seconds_;               ///< of all processes seen so far
-  double start_ = clock_seconds(CLOCK_MONOTONIC); ///< steady seconds at which the program was started
-  double next_look_ = 0;                          ///< steady seconds at which processes_ is read again
+  std::map<pid_t, double> seconds_;                   ///< of all processes seen so far
+  double start_ = mc::clock_seconds(CLOCK_MONOTONIC); ///< steady seconds at which the program was started
+  double next_look_ = 0;                              ///< steady seconds at which processes_ is read again
 };
 
 } // namespace carlo

@@ -3,7 +3,7 @@
 
 #include <ctime>
 
-namespace carlo {
+namespace mc {
 
 /// Seconds on a clock; 0 if there is no such clock.
 inline double clock_seconds(clockid_t clock) {
@@ -14,4 +14,4 @@ inline double clock_seconds(clockid_t clock) {
 /// CPU seconds of this thread.
 inline double thread_cpu_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
-} // namespace carlo
+} // namespace mc
