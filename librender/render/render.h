@@ -3,11 +3,12 @@
 
 #include <render/pixel_renderer.h>
 
-#include <mc/run/checkpoint.h>
+#include <mc/run/executor.h>
 
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace render {
 
@@ -51,6 +52,8 @@ struct RenderOptions {
   const std::atomic<bool>* cancel = nullptr;     ///< Stops the render after the current units once it is true.
   /// Saves and restores the samples. A render that goes on with a larger `spp` takes the samples behind them.
   mc::Checkpoint* checkpoint = nullptr;
+  std::string name = "render"; ///< Tells the renders of a program apart, see mc::RunOptions.
+  mc::Executor executor = {};  ///< Who computes the units; empty: `threads` of this process.
 };
 
 /// Image and statistics of a render.

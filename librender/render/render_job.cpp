@@ -1,6 +1,8 @@
 #include <render/render_job.h>
 
+#include <mc/core/cpu_time.h>
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/sampler/owen_scramble.h>
 
 #include <algorithm>
@@ -48,11 +50,33 @@ ImageExtent extent_of(const RenderOptions& options) {
 }
 
 constexpr int point_sets = 2;
+
+// Bytes of a pixel: sums of each point set and of all samples, counts, and the image; twice with splats, whose passes
+// have films of their own. A checkpoint takes the sums once more, twice while it is written.
+double bytes_per_pixel(const RenderOptions& options, bool has_light_paths) {
+  constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(std::uint32_t),
+                   bytes_of_light_sums = sizeof(Eigen::Array3d);
+  double film = sizeof(SampleSums) + sizeof(std::uint64_t) + point_sets * bytes_of_set;
+  if (has_light_paths) film += sizeof(LightSums) + point_sets * bytes_of_light_sums;
+  if (options.splat) film += point_sets * sizeof(double);
+  const double copies = (options.splat ? 2 : 1) + (options.checkpoint ? 2 : 0);
+  return copies * film + 2 * sizeof(std::uint32_t) + 2 * sizeof(Spectrum);
+}
+
+// Throws Error where the pixels need more memory than is allowed.
+void require_memory(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths) {
+  const Crop& c = extent.crop;
+  mc::require_memory(bytes_per_pixel(options, has_light_paths) * c.width * c.height,
+                     fmt::format("render: {}x{} pixels", c.width, c.height));
+}
 constexpr double least_pilot = 16; ///< Least number of samples per pixel of a pilot.
 
 bool is_adaptive(const RenderOptions& options) {
   return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
 }
+
+// Passes double, so the pilot is about a quarter.
+bool is_end_of_pilot(double mean, double wanted) { return mean >= least_pilot && mean >= wanted / 6; }
 
 // None for a filter so narrow that pixels share nothing.
 std::optional<SplatFilter> splat_filter_for(const Scene& scene, const RenderOptions& options) {
@@ -121,11 +145,16 @@ RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
       points_(options.sampler, options.seed, set_size_of(options)), path_{options.strategy, options.max_depth,
                                                                           options.aov, options.branches},
       pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer()),
-      row_order_(row_order(extent_.crop, border())), film_(new_film()), taken_(width() * height()),
+      row_order_(row_order(extent_.crop, border())), film_(checked_film()), taken_(width() * height()),
       next_taken_(taken_.size()), is_pilot_(is_adaptive(options)) {
   if (options.tiles) tile_renderer_.emplace(scene, path_, points_, extent_, light_tracer());
   if (light_tracer_)
     light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
+}
+
+Film RenderJob::checked_film() const {
+  require_memory(extent_, options_, light_tracer_.has_value());
+  return new_film();
 }
 
 Film RenderJob::new_film() const {
@@ -193,7 +222,7 @@ std::size_t RenderJob::next_stage() {
 bool RenderJob::begin_pass() {
   const double wanted = this->wanted();
   if (!(mean_ < wanted) || is_out_of_time()) return false;
-  if (is_pilot_ && mean_ >= least_pilot && mean_ >= wanted / 6) { // passes double, so the pilot is about a quarter
+  if (is_pilot_ && is_end_of_pilot(mean_, wanted)) {
     plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_scope, options_.threads,
                           tile_renderer_ ? tile_renderer_->tiling() : Tiling{});
     is_pilot_ = false;
@@ -235,6 +264,13 @@ RenderJob::RowPart RenderJob::row_part(std::size_t unit) const {
 }
 
 std::optional<RenderJob::Result> RenderJob::compute(std::size_t unit) const {
+  const double start = mc::thread_cpu_seconds();
+  std::optional<Result> result = compute_samples(unit);
+  if (result) result->cpu_seconds = mc::thread_cpu_seconds() - start;
+  return result;
+}
+
+std::optional<RenderJob::Result> RenderJob::compute_samples(std::size_t unit) const {
   Result result{{film_.width(), film_.height(), film_.sets()}, {}};
   if (stage_ != Stage::pixels) {
     const std::uint64_t first = pass_.light_begin + unit * LightTracingPass::block_size;
@@ -258,6 +294,12 @@ void RenderJob::absorb(std::size_t unit, Result result) {
   Film& film = pass_film_ ? *pass_film_ : film_;
   film.add(result.block);
   pass_.stats.merge(result.stats);
+  cpu_seconds_ += result.cpu_seconds;
+  count(unit);
+}
+
+// Counts a unit that was absorbed or skipped.
+void RenderJob::count(std::size_t unit) {
   if (stage_ == Stage::pixels) {
     const RowPart part = row_part(unit);
     for (std::size_t i = part.row * width() + part.begin; i < part.row * width() + part.end; ++i)
@@ -268,6 +310,14 @@ void RenderJob::absorb(std::size_t unit, Result result) {
   }
   pass_.light_done = std::min(pass_.light_done + LightTracingPass::block_size, pass_.light_end);
   if ((pass_.light_done - pass_.light_begin) % LightTracingPass::batch_size == 0) count_light_paths();
+}
+
+bool RenderJob::needs_results() const {
+  const bool ends_pass =
+      stage_ == Stage::more_light_paths || (stage_ == Stage::pixels && pass_.light_done >= pass_.all_light);
+  if (!ends_pass) return false;
+  const bool begins_plan = is_pilot_ && pass_.mean < options_.spp && is_end_of_pilot(pass_.mean, options_.spp);
+  return is_limited() || begins_plan;
 }
 
 // Tells the film of the light paths since the last call.
@@ -328,7 +378,7 @@ RenderResult RenderJob::result(bool is_done) {
   result.estimates = result.image.estimates =
       std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
   result.seconds = elapsed();
-  result.cpu_seconds = cpu_seconds();
+  result.cpu_seconds = cpu_seconds_;
   const RelativeErrors errors = film_.relative_errors(result.image);
   result.relative_error = errors.image.value;
   result.worst_error = errors.worst_block.value;

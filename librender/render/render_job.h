@@ -9,7 +9,6 @@
 #include <mc/run/job.h>
 
 #include <chrono>
-#include <ctime>
 
 namespace render {
 
@@ -22,10 +21,11 @@ class RenderJob {
  public:
   /// Result of a unit.
   struct Result {
-    FilmBlock block;   ///< Samples.
-    RenderStats stats; ///< Their counts.
+    FilmBlock block;        ///< Samples.
+    RenderStats stats;      ///< Their counts.
+    double cpu_seconds = 0; ///< CPU time of the unit.
     /// The result, see mc/run/archive.h.
-    template <class Archive> void archive(Archive& a) { a(block, stats); }
+    template <class Archive> void archive(Archive& a) { a(block, stats, cpu_seconds); }
   };
 
   /// Prepares the render of a scene. Scene and options must outlive this.
@@ -38,24 +38,28 @@ class RenderJob {
   std::optional<Result> compute(std::size_t unit) const;
   /// As mc::Job.
   void absorb(std::size_t unit, Result result);
+  /// As mc::Job.
+  void skip(std::size_t unit) { count(unit); }
+  /// As mc::Job: at the end of a pass, a plan or a limit depends on the samples.
+  bool needs_results() const;
   /// Whether the time limit is not reached, or the first pass is not finished.
   bool may_start() const { return !is_out_of_time(); }
   /// As mc::Job.
   template <class Archive> void archive(Archive& a) {
-    double seconds = elapsed(), cpu_seconds = this->cpu_seconds();
+    double seconds = elapsed();
     a(film_, taken_, next_taken_, plan_, is_pilot_, mean_, total_, error_.value, error_.bound, outlier_dominated_,
-      unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds);
+      unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds_);
     bool has_splats = pass_film_.has_value();
     a(has_splats);
     if (has_splats && !pass_film_) pass_film_ = new_film();
     if (has_splats) a(*pass_film_);
     if constexpr (Archive::is_reader) {
       earlier_seconds_ = seconds;
-      earlier_cpu_seconds_ = cpu_seconds;
       start_ = std::chrono::steady_clock::now();
-      cpu_start_ = std::clock();
     }
   }
+  /// As mc::Job.
+  template <class Archive> void archive_stage(Archive& a) { a(taken_, plan_, stage_, pass_); }
 
   /// Image and statistics of the samples so far. Call it once, after the run.
   ///   is_done : whether the run came to its end.
@@ -87,7 +91,6 @@ class RenderJob {
   };
 
   double elapsed() const;
-  double cpu_seconds() const { return earlier_cpu_seconds_ + double(std::clock() - cpu_start_) / CLOCKS_PER_SEC; }
   bool is_limited() const { return options_.seconds || options_.target_error; }
   // The first pass is always completed.
   bool is_out_of_time() const { return options_.seconds && mean_ > 0 && elapsed() >= *options_.seconds; }
@@ -97,6 +100,7 @@ class RenderJob {
   std::size_t width() const { return static_cast<std::size_t>(extent_.crop.width) + 2 * border(); }
   const LightTracer* light_tracer() const { return light_tracer_ ? &*light_tracer_ : nullptr; }
   Film new_film() const;
+  Film checked_film() const;
 
   double wanted() const;
   double wanted_by_error() const;
@@ -108,6 +112,8 @@ class RenderJob {
   void count_light_paths();
   void estimate_error();
   void report_progress() const;
+  std::optional<Result> compute_samples(std::size_t unit) const;
+  void count(std::size_t unit);
   RowPart row_part(std::size_t unit) const;
   std::uint32_t samples_at_end(std::size_t pixel) const {
     return std::max(taken_[pixel], plan_.samples(pixel, pass_.mean));
@@ -140,9 +146,9 @@ class RenderJob {
   Pass pass_;
   std::uint64_t units_ = 0; ///< Number of units of the stage.
 
-  double earlier_seconds_ = 0, earlier_cpu_seconds_ = 0; ///< Of the run behind the checkpoint.
+  double cpu_seconds_ = 0;     ///< Of all units.
+  double earlier_seconds_ = 0; ///< Of the run behind the checkpoint.
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_start_ = std::clock();
 };
 
 } // namespace render

@@ -3,8 +3,8 @@
 ///
 /// A type is archived by its member archive(a), or by a function archive(a, x) in its namespace. Both are templates of
 /// the type of `a`, and call a(first, second, ...) with the fields: see SampleSums::archive of librender.
-/// Numbers, enumerations, strings, vectors, deques, arrays, optionals, pairs, maps and fixed-size Eigen arrays need no
-/// function. Bytes depend on the byte order of the machine.
+/// Numbers, enumerations, strings, vectors, deques, arrays, optionals, pairs, tuples, maps and fixed-size Eigen arrays
+/// need no function. Bytes depend on the byte order of the machine.
 
 #include <mc/core/error.h>
 
@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -87,6 +88,9 @@ template <class Archive, class T, std::size_t n> void archive(Archive& a, std::a
 template <class Archive, class A, class B> void archive(Archive& a, std::pair<A, B>& p) {
   archive_value(a, p.first);
   archive_value(a, p.second);
+}
+template <class Archive, class... T> void archive(Archive& a, std::tuple<T...>& values) {
+  std::apply([&a](T&... x) { (archive_value(a, x), ...); }, values);
 }
 template <class Archive, class T> void archive(Archive& a, std::optional<T>& x) {
   bool has_value = x.has_value();
@@ -186,6 +190,8 @@ class ArchiveReader {
   void require_left(std::uint64_t n) const {
     require(n <= left_.size(), "archive: {} bytes are needed, and {} are left", n, left_.size());
   }
+  /// Reads all bytes that are left.
+  std::string rest() { return std::string(std::exchange(left_, {})); }
   /// Throws Error where bytes are left.
   void require_end() const { require(left_.empty(), "archive: {} bytes are left over", left_.size()); }
 

@@ -3,11 +3,18 @@
 #include <mc/random/hash.h>
 #include <mc/run/checkpoint.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 namespace mc {
 
@@ -55,7 +62,8 @@ std::string value_of(const RunIdentity& identity, const std::string& field) {
   return found == identity.end() ? "not given" : "'" + printable(found->second, 200) + "'";
 }
 
-// "--seed was '1' and is '2' now" for every field that differs.
+} // namespace
+
 std::vector<std::string> differences(const RunIdentity& saved, const RunIdentity& asked) {
   std::vector<std::string> fields, all;
   for (const RunIdentity* identity : {&asked, &saved})
@@ -67,13 +75,68 @@ std::vector<std::string> differences(const RunIdentity& saved, const RunIdentity
   return all;
 }
 
-} // namespace
+SavedRun read_checkpoint(const std::string& file) {
+  const std::string text = read_file(file);
+  ArchiveReader reader(checked_body(text, file));
+  SavedRun run;
+  with_context(file, [&] { reader(run.identity, run.sections).require_end(); });
+  return run;
+}
+
+/// Exclusive use of a file that is replaced. The lock is that of the file's inode, so each new file is locked before it
+/// gets its name.
+class Checkpoint::Lock {
+ public:
+  explicit Lock(std::string file) : file_(std::move(file)) {
+    const int descriptor = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return; // there is no file yet
+    if (is_other_run(descriptor)) {
+      ::close(descriptor);
+      throw Error(fmt::format("another run writes '{}'; name another file, or wait for its end", file_));
+    }
+    replace(descriptor);
+  }
+  ~Lock() { replace(-1); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+  // Throws Error where another run has replaced the file.
+  void require_mine() const {
+    const int descriptor = ::open(file_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    struct stat there {
+    }, mine{};
+    const bool is_mine = descriptor_ >= 0 && fstat(descriptor, &there) == 0 && fstat(descriptor_, &mine) == 0 &&
+                         there.st_dev == mine.st_dev && there.st_ino == mine.st_ino;
+    const bool is_other = !is_mine && is_other_run(descriptor);
+    ::close(descriptor);
+    require(!is_other, "another run writes '{}'", file_);
+  }
+  // Locks the file that will get the name.
+  void move_to(std::FILE* stream) {
+    const int descriptor = fcntl(fileno(stream), F_DUPFD_CLOEXEC, 0);
+    flock(descriptor, LOCK_EX | LOCK_NB);
+    next_ = descriptor;
+  }
+  void moved() { replace(std::exchange(next_, -1)); }
+
+ private:
+  // Locks the file unless another description of it is locked.
+  static bool is_other_run(int descriptor) { return flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; }
+  void replace(int descriptor) {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = descriptor;
+  }
+
+  std::string file_;
+  int descriptor_ = -1, next_ = -1;
+};
 
 /// A file that a thread writes.
 class Checkpoint::Writing {
  public:
-  Writing(std::string file, std::string bytes)
-      : file_(std::move(file)), bytes_(std::move(bytes)), thread_([this] { write(); }) {}
+  Writing(std::string file, std::string bytes, Lock& lock)
+      : file_(std::move(file)), bytes_(std::move(bytes)), lock_(lock), thread_([this] { write(); }) {}
 
   bool is_finished() const { return is_finished_; }
   /// Waits for the end. Returns the reason of a failure, or "".
@@ -92,7 +155,12 @@ class Checkpoint::Writing {
     try {
       const std::uint64_t sum = checksum_of(std::string_view(bytes_).substr(magic.size()));
       bytes_.append(reinterpret_cast<const char*>(&sum), sizeof sum);
-      write_file(file_, bytes_);
+      lock_.require_mine();
+      replace_file(file_, [&](std::FILE* stream) {
+        write_bytes(stream, bytes_);
+        lock_.move_to(stream);
+      });
+      lock_.moved();
     } catch (const std::exception& e) {
       failure_ = e.what();
     }
@@ -100,6 +168,7 @@ class Checkpoint::Writing {
   }
 
   std::string file_, bytes_, failure_;
+  Lock& lock_;
   std::atomic<bool> is_finished_ = false;
   std::thread thread_; // after the data that it uses
 };
@@ -108,15 +177,15 @@ Checkpoint::Checkpoint(CheckpointOptions options, RunIdentity identity)
     : options_(std::move(options)), identity_(std::move(identity)) {
   require(options_.every >= 0, "checkpoint: {} seconds between two must be >= 0", options_.every);
   if (!options_.resume.empty()) {
-    const std::string text = read_file(options_.resume);
-    ArchiveReader reader(checked_body(text, options_.resume));
-    RunIdentity saved;
-    with_context(options_.resume, [&] { reader(saved, saved_).require_end(); });
-    const std::vector<std::string> different = differences(saved, identity_);
+    SavedRun saved = read_checkpoint(options_.resume);
+    saved_ = std::move(saved.sections);
+    const std::vector<std::string> different = differences(saved.identity, identity_);
     require(different.empty(), "'{}' is of another run: {}; ask for the same, or start anew", options_.resume,
             fmt::join(different, "; "));
   }
-  if (!options_.file.empty()) require_writable(options_.file);
+  if (options_.file.empty()) return;
+  require_writable(options_.file);
+  lock_ = std::make_unique<Lock>(options_.file);
 }
 
 Checkpoint::~Checkpoint() { report_finished_writing(); }
@@ -145,7 +214,7 @@ void Checkpoint::save() {
     writer(name);
     writer.nested(archive);
   }
-  writing_ = std::make_unique<Writing>(options_.file, writer.take());
+  writing_ = std::make_unique<Writing>(options_.file, writer.take(), *lock_);
   last_ = Clock::now();
 }
 
@@ -158,9 +227,10 @@ const std::string* Checkpoint::open(const std::string& name, Save save) {
   const std::size_t depth = open_.size();
   open_.emplace_back(name, std::move(save));
   if (depth >= saved_.size()) return nullptr;
-  require(saved_[depth].name == name, "'{}' was saved in '{}', and the run is in '{}'", options_.resume,
-          printable(saved_[depth].name), name);
-  return &saved_[depth].bytes;
+  const auto& [saved_name, bytes] = saved_[depth];
+  require(saved_name == name, "'{}' was saved in '{}', and the run is in '{}'{}", options_.resume,
+          printable(saved_name), name, saved_name == "part" ? "; it is a part of a run" : "");
+  return &bytes;
 }
 
 void Checkpoint::close() {

@@ -16,6 +16,18 @@ namespace mc {
 /// Everything that a result depends on, as fields with the user's words: {"--seed", "1"}, {"the integrand", "x*y"}.
 using RunIdentity = std::vector<std::pair<std::string, std::string>>;
 
+/// "--seed was '1' and is '2' now" for every field that differs.
+std::vector<std::string> differences(const RunIdentity& before, const RunIdentity& now);
+
+/// The content of a checkpoint.
+struct SavedRun {
+  RunIdentity identity;                                      ///< Of the run that wrote it.
+  std::vector<std::pair<std::string, std::string>> sections; ///< Names and bytes of its sections, the outermost first.
+};
+
+/// Reads a checkpoint. Throws Error where it is missing, damaged or none.
+SavedRun read_checkpoint(const std::string& file);
+
 /// Files and time of checkpoints.
 struct CheckpointOptions {
   std::string file = {};                             ///< File to write.
@@ -30,12 +42,14 @@ struct CheckpointOptions {
 ///   writing  : A file is written beside the old one by a thread of its own, synced and renamed. It has a checksum. A
 ///              crash, a killed process or a full disk leaves the old file.
 ///   identity : A file of another run is refused, with every field that differs.
+///   lock     : While this object exists, no other one may write the same file, of any process. On file systems without
+///              locks this is not checked.
 ///   threads  : One thread at a time may use this object.
 class Checkpoint {
  public:
   /// Reads options.resume if it is given.
   ///   throws : Error if this file is missing, damaged, no checkpoint, or of a run with another identity; if
-  ///            options.file cannot be written; if `every` is negative.
+  ///            options.file cannot be written, or another run writes it; if `every` is negative.
   Checkpoint(CheckpointOptions options, RunIdentity identity);
   /// Waits for the thread that writes. Does not save.
   ~Checkpoint();
@@ -90,11 +104,8 @@ class Checkpoint {
  private:
   using Clock = std::chrono::steady_clock;
   using Save = std::function<void(ArchiveWriter&)>;
-  struct SavedSection {
-    std::string name, bytes;
-    template <class Archive> void archive(Archive& a) { a(name, bytes); }
-  };
   class Writing;
+  class Lock;
 
   // Returns the saved bytes of the section, or null.
   const std::string* open(const std::string& name, Save save);
@@ -104,7 +115,9 @@ class Checkpoint {
   CheckpointOptions options_;
   RunIdentity identity_;
   std::vector<std::pair<std::string, Save>> open_; ///< Open sections, the outermost first.
-  std::vector<SavedSection> saved_;                ///< Sections of the file to go on from that may still be restored.
+  /// Sections of the file to go on from that may still be restored.
+  std::vector<std::pair<std::string, std::string>> saved_;
+  std::unique_ptr<Lock> lock_; ///< Of the file to write.
   std::unique_ptr<Writing> writing_;
   std::string memory_; ///< Of the checkpoint before, for the next.
   Clock::time_point last_ = Clock::now();

@@ -1,17 +1,13 @@
 #pragma once
-/// Work in units, with the same bits for any number of threads.
+/// Work in units, with the same bits for any number of threads, ranks and parts.
 
-#include <mc/core/parallel.h>
-#include <mc/run/checkpoint.h>
+#include <mc/run/executor.h>
 
-#include <algorithm>
-#include <atomic>
 #include <concepts>
-#include <condition_variable>
 #include <cstddef>
-#include <map>
-#include <mutex>
+#include <memory>
 #include <optional>
+#include <utility>
 
 namespace mc {
 
@@ -26,6 +22,10 @@ namespace mc {
 ///   archive(a)   : the state between two calls of absorb(). See archive.h; results have an archive, too.
 ///   may_start()  : optional; false where no further unit of the stage may start, as after a time limit. The units that
 ///                  were started are absorbed, and the next stage begins.
+///   archive_stage(a)    : optional; everything that compute() reads of the state. Default: archive(a).
+///   skip(i)             : optional, with needs_results(); in place of absorb(): goes on without the result of unit i.
+///   needs_results()     : whether the next stage depends on results of earlier units: a barrier between parts. Without
+///                         skip(), every stage does. A job of which units were skipped has no result.
 template <class J>
 concept Job = requires(J& job, const J& fixed, std::size_t unit, typename J::Result result, ArchiveWriter& writer,
                        ArchiveReader& reader) {
@@ -36,112 +36,55 @@ concept Job = requires(J& job, const J& fixed, std::size_t unit, typename J::Res
   job.archive(reader);
 };
 
-/// How a job is run.
-struct RunOptions {
-  int threads = 0;                           ///< Number of units that are computed at a time; 0: hardware threads.
-  const std::atomic<bool>* cancel = nullptr; ///< No unit starts once it is true.
-  Checkpoint* checkpoint = nullptr;          ///< Saves and restores the state; null: neither.
-};
-
 namespace detail {
 
-// A run of a job; see run_job().
-template <Job J> class JobRun {
- public:
-  JobRun(J& job, const RunOptions& options) : job_(job), options_(options) {}
-
-  bool run() {
-    const Checkpoint::Section section(options_.checkpoint, "job",
-                                      [this](auto& a) { a(units_, absorbed_, results_, job_); });
-    if (absorbed_ == units_) begin_stage();
-    while (units_ > 0 && !is_cancelled()) {
-      run_stage();
-      if (absorbed_ == units_ || !may_start()) begin_stage();
-    }
-    const bool is_done = units_ == 0;
-    if (options_.checkpoint && (!is_done || section.is_outermost())) options_.checkpoint->save_and_wait();
-    for (auto& [unit, result] : results_) job_.absorb(unit, std::move(result));
-    return is_done;
-  }
-
- private:
-  // Largest number of units of a thread from the first unit that is not absorbed. It bounds the results that wait in
-  // memory. It is so large that no thread waits for a unit unless that takes as long as many others.
-  static constexpr std::size_t max_ahead = 64;
-
-  bool is_cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
-  bool may_start() const {
-    if constexpr (requires { job_.may_start(); }) return job_.may_start();
+/// A job that outlives the returned object, without its type.
+template <Job J> AnyJob any_job(J& job, std::string name) {
+  using Result = typename J::Result;
+  AnyJob any;
+  any.name = std::move(name);
+  any.next_stage = [&job] { return static_cast<std::size_t>(job.next_stage()); };
+  any.compute = [&job](std::size_t unit) -> AnyResult {
+    std::optional<Result> result = std::as_const(job).compute(unit);
+    return result ? std::make_shared<Result>(std::move(*result)) : nullptr;
+  };
+  any.absorb = [&job](std::size_t unit, AnyResult result) {
+    job.absorb(unit, std::move(*static_cast<Result*>(result.get())));
+  };
+  any.may_start = [&job] {
+    if constexpr (requires { job.may_start(); }) return bool(job.may_start());
     else return true;
+  };
+  any.needs_results = [&job] {
+    if constexpr (requires { job.needs_results(); }) return bool(job.needs_results());
+    else return true;
+  };
+  if constexpr (requires { job.skip(std::size_t{0}); }) any.skip = [&job](std::size_t unit) { job.skip(unit); };
+  any.write_result = [](ArchiveWriter& a, const AnyResult& result) { a(*static_cast<const Result*>(result.get())); };
+  any.read_result = [](ArchiveReader& a) -> AnyResult {
+    auto result = std::make_shared<Result>();
+    a(*result);
+    return result;
+  };
+  any.write = [&job](ArchiveWriter& a) { a(job); };
+  any.read = [&job](ArchiveReader& a) { a(job); };
+  any.write_stage = any.write;
+  any.read_stage = any.read;
+  if constexpr (requires(ArchiveWriter & a) { job.archive_stage(a); }) {
+    any.write_stage = [&job](ArchiveWriter& a) { job.archive_stage(a); };
+    any.read_stage = [&job](ArchiveReader& a) { job.archive_stage(a); };
   }
+  return any;
+}
 
-  void begin_stage() {
-    units_ = job_.next_stage();
-    absorbed_ = 0;
-    results_.clear(); // where no further unit might start, results of a checkpoint may lack one before them
-  }
-
-  void run_stage() {
-    next_ = absorbed_;
-    const int threads = options_.threads != 0 ? options_.threads : hardware_threads();
-    workers_ = std::min(static_cast<std::size_t>(threads), units_ - absorbed_);
-    parallel_for(workers_, options_.threads, [this](std::size_t) { work(); });
-  }
-
-  // Computes one unit after the other, until none is left.
-  void work() {
-    std::unique_lock lock(mutex_);
-    try {
-      while (const std::optional<std::size_t> unit = take_unit(lock)) {
-        lock.unlock();
-        std::optional<typename J::Result> result = job_.compute(*unit);
-        lock.lock();
-        if (!result) break;
-        results_.emplace(*unit, std::move(*result));
-        absorb_results();
-      }
-    } catch (...) {
-      if (!lock.owns_lock()) lock.lock();
-      end_stage();
-      throw;
-    }
-    end_stage();
-  }
-
-  // Waits until a unit may start. Returns nullopt where none may.
-  std::optional<std::size_t> take_unit(std::unique_lock<std::mutex>& lock) {
-    for (;;) {
-      next_ = std::max(next_, absorbed_);
-      while (results_.contains(next_)) ++next_; // of a checkpoint
-      if (next_ >= units_ || is_cancelled() || !may_start()) return {};
-      if (next_ < absorbed_ + max_ahead * workers_) return next_++;
-      absorbed_more_.wait(lock);
-    }
-  }
-
-  // After the last unit, a failure or a cancellation.
-  void end_stage() {
-    next_ = units_;
-    absorbed_more_.notify_all();
-  }
-
-  void absorb_results() {
-    for (auto first = results_.begin(); first != results_.end() && first->first == absorbed_;
-         first = results_.erase(first), ++absorbed_)
-      job_.absorb(absorbed_, std::move(first->second));
-    absorbed_more_.notify_all();
-    if (options_.checkpoint && options_.checkpoint->is_due()) options_.checkpoint->save();
-  }
-
-  J& job_;
-  const RunOptions& options_;
-  std::mutex mutex_; // of everything below, and of the job's state
-  std::condition_variable absorbed_more_;
-  std::size_t units_ = 0,                             ///< of this stage
-      absorbed_ = 0,                                  ///< the first units, whose results the job has
-      next_ = 0,                                      ///< the first unit that is not started
-      workers_ = 0;                                   ///< threads of this stage
-  std::map<std::size_t, typename J::Result> results_; ///< of units behind one that is still computed
+// A job without units, whose state is a value.
+template <class T> struct ValueJob {
+  using Result = bool;
+  T& value;
+  std::size_t next_stage() { return 0; }
+  std::optional<bool> compute(std::size_t) const { return true; }
+  void absorb(std::size_t, bool) {}
+  template <class Archive> void archive(Archive& a) { a(value); }
 };
 
 } // namespace detail
@@ -150,6 +93,16 @@ template <Job J> class JobRun {
 /// state when it is due, at a cancellation, and at the end of a run that is not within another section. Returns whether
 /// the job is done. When cancelled, the job has absorbed every result, in order, but some in between may be missing.
 ///   throws : the first exception of the job.
-template <Job J> bool run_job(J& job, const RunOptions& options) { return detail::JobRun<J>(job, options).run(); }
+template <Job J> bool run_job(J& job, const RunOptions& options) {
+  const AnyJob any = detail::any_job(job, options.name);
+  return options.executor ? options.executor(any, options) : run_on_threads(any, options);
+}
+
+/// A value of the first rank, which all ranks get. For decisions by a clock, which must be the same everywhere.
+template <class T> T shared_value(T value, const Executor& executor) {
+  detail::ValueJob<T> job{value};
+  run_job(job, {.executor = executor, .name = "value"});
+  return value;
+}
 
 } // namespace mc
