@@ -5,6 +5,7 @@
 #include <mc/domain/concept.h>
 #include <mc/estimate/adapt/adapted_density.h>
 #include <mc/estimate/estimate.h>
+#include <mc/run/executor.h>
 #include <mc/warp/concept.h>
 
 #include <algorithm>
@@ -95,6 +96,9 @@ struct IntegrateOptions {
   std::size_t auxiliary_outputs = 0;
   std::function<void(const IntegrateProgress&)> progress = {}; ///< Called after each round.
   const std::atomic<bool>* cancel = nullptr;                   ///< Ends the integration when it becomes true.
+  /// Who evaluates the integrand in rounds of 65536 calls or more; empty: `threads` of this process. The result has the
+  /// same bits for every executor. See MpiRanks, PartRun and JobLog.
+  Executor executor = {};
 };
 
 /// Diagnostics of one round of a run.

@@ -91,6 +91,9 @@ class Moments {
   /// The mean with its error bar, with count - 1 degrees of freedom.
   Estimate estimate() const;
 
+  /// The moments, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(count_, non_finite_, first_non_finite_, mean_, m2_); }
+
  private:
   std::uint64_t count_ = 0, non_finite_ = 0, first_non_finite_ = 0;
   double mean_ = 0, m2_ = 0;

@@ -21,6 +21,11 @@ class Extremes {
   /// An empty object for values that will be merged into this one: it skips values that could not be kept.
   Extremes for_more_values() const;
 
+  /// The values, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) {
+    a(count_, zeros_, sum_of_sizes_, high_cut_, low_cut_, high_, low_);
+  }
+
   /// Number of finite values.
   std::uint64_t count() const { return count_; }
   /// Number of zeros.

@@ -21,6 +21,8 @@ struct SampledValues {
 
   /// Adds the values of another object.
   void merge(const SampledValues& other);
+  /// The values, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(averaged, integrand, weights); }
   /// An empty object for values that will be merged into this one.
   SampledValues for_more_values() const { return {averaged.for_more_values(), integrand.for_more_values()}; }
 };

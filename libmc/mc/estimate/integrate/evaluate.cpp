@@ -1,19 +1,22 @@
 #include <mc/core/error.h>
-#include <mc/core/parallel.h>
 #include <mc/estimate/integrate/evaluate.h>
+#include <mc/run/job.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace mc::detail {
 
 namespace {
-constexpr std::uint64_t chunk = 4096;  // points per task: fixed, so that sums do not depend on the number of threads
-constexpr std::uint64_t block = 256;   // points drawn at once
-constexpr double thread_start = 5e-4;  // seconds of work above which other threads pay off
-constexpr double most_infinite = 1e-3; // largest volume of infinite values; a larger one is no singularity
-constexpr double few_infinite = 8;     // points always allowed to be infinite
+constexpr std::uint64_t chunk = 4096; // points per task: fixed, so that sums do not depend on the number of threads
+constexpr std::uint64_t block = 256;  // points drawn at once
+constexpr std::uint64_t least_shared = 1 << 16; // calls from which an executor computes; fewer are not worth messages
+constexpr double thread_start = 5e-4;           // seconds of work above which other threads pay off
+constexpr double most_infinite = 1e-3;          // largest volume of infinite values; a larger one is no singularity
+constexpr double few_infinite = 8;              // points always allowed to be infinite
 
 // Points of a block with their weights: an average of f * factor - c * shift + c.
 struct Block {
@@ -69,7 +72,6 @@ void Integrand::operator()(std::span<const double> points, std::size_t d, std::s
 
 Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal& proposal, Keep keep,
                                const std::vector<SampledValues>& empty) const {
-  if (options.cancel && options.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
   Sums sums{std::vector<ScaledMoments>(outputs), empty};
   const auto most = static_cast<std::size_t>(std::min(block, range.last - range.first));
@@ -107,31 +109,116 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
   return sums;
 }
 
+/// An evaluation as a Job of one stage. A unit is some chunks of one set, whose sums are merged one by one, so that the
+/// number of chunks of a unit has no effect on the bits.
+class Evaluator::EvaluateJob {
+ public:
+  struct Result {
+    std::vector<Sums> chunks;
+    Record record; ///< The recorded points of the unit.
+    template <class Archive> void archive(Archive& a) { a(chunks, record.points, record.values, record.weights); }
+  };
+
+  EvaluateJob(const Evaluator& evaluator, const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
+              const Proposal& proposal, Keep keep, const std::vector<SampledValues>& before)
+      : evaluator_(evaluator), sets_(sets), first_(first), count_(count), proposal_(proposal), keep_(keep),
+        empty_(evaluator.outputs), recorded_(keep.record ? std::min(count, keep.most_recorded / sets.size()) : 0),
+        results_(sets.size()) {
+    for (std::size_t k = 0; k < before.size(); ++k) empty_[k] = before[k].for_more_values();
+    const std::uint64_t chunks = (count + chunk - 1) / chunk;
+    points_ = chunk * std::clamp<std::uint64_t>(chunks * sets.size() / most_units, 1, most_chunks);
+    units_ = (count + points_ - 1) / points_;
+    if (!keep.record) return;
+    keep.record->points.resize(sets.size() * recorded_ * dim());
+    keep.record->values.resize(sets.size() * recorded_ * evaluator.outputs);
+    keep.record->weights.resize(sets.size() * recorded_);
+  }
+
+  std::size_t next_stage() { return std::exchange(has_begun_, true) ? 0 : units(); }
+  std::size_t units() const { return static_cast<std::size_t>(units_ * sets_.size()); }
+  // Keeps a result for the thread that will compute it.
+  void keep_first(Result result) { first_result_ = std::move(result); }
+
+  std::optional<Result> compute(std::size_t unit) const {
+    if (unit == 0 && first_result_) return std::exchange(first_result_, std::nullopt);
+    const std::uint64_t begin = begin_of(unit), end = std::min(begin + points_, count_);
+    Result result;
+    const std::size_t recorded = recorded_of(unit);
+    result.record.points.resize(recorded * dim());
+    result.record.values.resize(recorded * evaluator_.outputs);
+    result.record.weights.resize(recorded);
+    const Keep keep{keep_.batches, recorded > 0 ? &result.record : nullptr};
+    for (std::uint64_t done = begin; done < end; done += chunk) {
+      if (evaluator_.options.cancel && evaluator_.options.cancel->load()) return {};
+      const Chunk range{first_ + done, first_ + std::min(done + chunk, end), recorded_ - std::min(recorded_, done),
+                        done - begin};
+      result.chunks.push_back(evaluator_.evaluate_chunk(sets_[unit / units_], range, proposal_, keep, empty_));
+    }
+    return result;
+  }
+  void absorb(std::size_t unit, Result result) {
+    for (Sums& sums : result.chunks) results_[unit / units_].merge(std::move(sums));
+    if (recorded_of(unit) == 0) return;
+    const auto at = static_cast<std::ptrdiff_t>(unit / units_ * recorded_ + begin_of(unit));
+    const auto width = static_cast<std::ptrdiff_t>(dim()), outputs = static_cast<std::ptrdiff_t>(evaluator_.outputs);
+    std::ranges::copy(result.record.points, keep_.record->points.begin() + at * width);
+    std::ranges::copy(result.record.values, keep_.record->values.begin() + at * outputs);
+    std::ranges::copy(result.record.weights, keep_.record->weights.begin() + at);
+  }
+  template <class Archive> void archive(Archive& a) {
+    a(has_begun_, results_);
+    if (keep_.record) a(keep_.record->points, keep_.record->values, keep_.record->weights);
+  }
+  template <class Archive> void archive_stage(Archive&) {}
+
+  std::vector<Sums> take_results() { return std::move(results_); }
+
+ private:
+  static constexpr std::uint64_t most_units = 1024,
+                                 most_chunks = 64; // units of small evaluations, chunks of large ones
+
+  std::size_t dim() const { return static_cast<std::size_t>(evaluator_.dim); }
+  std::uint64_t begin_of(std::size_t unit) const { return unit % units_ * points_; }
+  std::size_t recorded_of(std::size_t unit) const {
+    const std::uint64_t begin = begin_of(unit);
+    return static_cast<std::size_t>(std::min(points_, recorded_ - std::min(recorded_, begin)));
+  }
+
+  const Evaluator& evaluator_;
+  const std::vector<PointSet>& sets_;
+  std::uint64_t first_, count_;
+  const Proposal& proposal_;
+  Keep keep_;
+  std::vector<SampledValues> empty_;
+  std::uint64_t recorded_;               ///< Points of each set.
+  std::uint64_t points_ = 0, units_ = 0; ///< Points of a unit, units of a set.
+  bool has_begun_ = false;
+  mutable std::optional<Result> first_result_;
+  std::vector<Sums> results_;
+};
+
 std::vector<Sums> Evaluator::evaluate(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
                                       const Proposal& proposal, Keep keep, const std::vector<SampledValues>& before) {
-  const std::uint64_t chunks = (count + chunk - 1) / chunk;
-  std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
-  std::vector<SampledValues> empty(outputs);
-  for (std::size_t k = 0; k < before.size(); ++k) empty[k] = before[k].for_more_values();
-  const std::uint64_t recorded = keep.record ? std::min(count, keep.most_recorded / sets.size()) : 0;
-  if (keep.record) {
-    keep.record->points.resize(sets.size() * recorded * static_cast<std::size_t>(dim));
-    keep.record->values.resize(sets.size() * recorded * outputs);
-    keep.record->weights.resize(sets.size() * recorded);
+  EvaluateJob job(*this, sets, first, count, proposal, keep, before);
+  RunOptions run{options.threads, options.cancel, nullptr, {}, "evaluations"};
+  if (options.executor && count * sets.size() >= least_shared) run.executor = options.executor;
+  else {
+    // Other threads start only if they pay off, judged by the time of the first unit.
+    const auto begin = std::chrono::steady_clock::now();
+    if (std::optional<EvaluateJob::Result> result = job.compute(0)) job.keep_first(std::move(*result));
+    const std::chrono::duration<double> once = std::chrono::steady_clock::now() - begin;
+    if (once.count() * static_cast<double>(job.units() - 1) <= thread_start) run.threads = 1;
   }
-  const auto task = [&](std::size_t i) {
-    const std::uint64_t set = i / chunks, done = i % chunks * chunk;
-    const Chunk range{first + done, first + std::min(done + chunk, count), recorded - std::min(recorded, done),
-                      set * recorded + done};
-    parts[i] = evaluate_chunk(sets[set], range, proposal, keep, empty);
-  };
-  // Other threads start only if they pay off, judged by the time of the first task.
-  const auto begin = std::chrono::steady_clock::now();
-  task(0);
-  const std::chrono::duration<double> once = std::chrono::steady_clock::now() - begin;
-  const bool pays = once.count() * static_cast<double>(parts.size() - 1) > thread_start;
-  parallel_for(parts.size() - 1, pays ? options.threads : 1, [&](std::size_t i) { task(i + 1); });
-  for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(std::move(parts[i]));
+  if (run.executor || run.threads != 1) {
+    if (!run_job(job, run)) throw Cancelled{};
+  } else {
+    for (std::size_t unit = 0, units = job.next_stage(); unit < units; ++unit) {
+      std::optional<EvaluateJob::Result> result = job.compute(unit);
+      if (!result) throw Cancelled{};
+      job.absorb(unit, std::move(*result));
+    }
+  }
+  std::vector<Sums> results = job.take_results();
   calls += count * sets.size();
   // A few points do not determine the volume that they represent.
   const double most = few_infinite + most_infinite * static_cast<double>(count * sets.size());

@@ -59,6 +59,7 @@ struct Evaluator {
                              const std::vector<SampledValues>& before = {});
 
  private:
+  class EvaluateJob;
   // Points [first, last) of a set, of which the first `recorded` belong to the record, from `place` on.
   struct Chunk {
     std::uint64_t first, last, recorded, place;

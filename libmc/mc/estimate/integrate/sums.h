@@ -28,6 +28,8 @@ class ScaledMoments {
   double std_deviation() const; ///< Standard deviation of the values.
   /// Moments in units of the power of two.
   const Moments& moments() const { return moments_; }
+  /// The moments, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(moments_, exponent_); }
 
  private:
   void rescale(int exponent);
@@ -48,6 +50,8 @@ struct InfiniteValues {
     count += other.count;
     volume += other.volume;
   }
+  /// The values, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(count, volume); }
 };
 
 /// Moments and extreme values of every output. Optionally also the moments of batches of values.
@@ -69,6 +73,8 @@ struct Sums {
   void add_to_batches(std::size_t output, std::span<const double> added, std::uint64_t first, double largest);
   /// Appends the values of other sums.
   void merge(Sums other);
+  /// The sums, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(outputs, sampled, infinite, batches, first_infinite); }
 };
 
 } // namespace mc::detail
