@@ -11,6 +11,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libmuparser-dev gnuplot-nox                # carlo
   pybind11-dev python3-dev python3-numpy python3-scipy python3-pytest        # the Python module and its tests
   python3-nbconvert python3-ipykernel python3-matplotlib dpkg-dev            # notebooks and packages
+  libopenmpi-dev openmpi-bin parallel          # several ranks of MPI, and parts by GNU parallel
   "$@"
 )
 
@@ -18,7 +19,7 @@ if ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'TEXT'
 bootstrap.sh: this is not a Debian system. Please install: a C++20 compiler (g++ 12 or clang 14), CMake 3.25, Ninja, git,
 Eigen 3.4, fmt 9, pcg-cpp, Boost 1.74 (headers), MPFR 4, oneTBB, GoogleTest, pugixml, zlib, libpng,
-libjpeg-turbo 2, OpenEXR 3, CLI11 2, nlohmann-json 3.11, muparser, gnuplot, clang-format 14, pybind11 2.10, and for
+libjpeg-turbo 2, OpenEXR 3, CLI11 2, nlohmann-json 3.11, muparser, gnuplot, OpenMPI 4, GNU parallel, clang-format 14, pybind11 2.10, and for
 Python 3.9 NumPy, SciPy, pytest, nbconvert, ipykernel and matplotlib; then run tools/test.sh again.
 TEXT
   exit 2

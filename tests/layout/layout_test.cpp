@@ -135,6 +135,7 @@ TEST(Layout, TopLevelHasOnlyKnownEntries) {
                                        "examples",
                                        "tests",
                                        "bench",
+                                       "examples",
                                        "notebooks-data",
                                        "build",
                                        "out",

@@ -1,28 +1,11 @@
 #pragma once
-// Runs the carlo binary, or any other command, on the command line.
+// Runs the carlo binary on the command line.
 
-#include <array>
-#include <cstdio>
+#include <support/run.h>
+
 #include <string>
 
-#include <sys/wait.h>
-
 namespace support {
-
-struct ProcessResult {
-  int exit_code;
-  std::string output; ///< stdout and stderr
-};
-
-inline ProcessResult run(const std::string& command) {
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (!pipe) return {-1, "cannot start " + command};
-  std::string output;
-  std::array<char, 4096> buffer;
-  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) output.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
-}
 
 inline ProcessResult run_carlo(const std::string& arguments) { return run("'" CARLO_PATH "' " + arguments); }
 

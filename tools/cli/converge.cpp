@@ -2,11 +2,11 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <input/points_file.h>
-#include <options/checkpoint_options.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
 #include <options/files.h>
 #include <options/integral_options.h>
+#include <options/run_session.h>
 #include <report/plot.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
@@ -104,8 +104,11 @@ struct ConvergeRun {
 
 ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>& targets,
                         const std::vector<SamplingMethod>& chosen, const ConvergeCommandOptions& o,
-                        const std::filesystem::path& folder, const std::atomic<bool>* cancel, ReplicateLog& log) {
+                        const std::filesystem::path& folder, const std::atomic<bool>* cancel,
+                        const RunSession& session) {
+  ReplicateLog log(session.checkpoint(), session.executor());
   ConvergeRun run;
+  mc::IndependentPieces pieces;
   ProgressLine progress;
   bool can_draw = true;
   for (std::size_t i = 0; i < targets.size() && !run.interrupted; ++i) {
@@ -114,18 +117,26 @@ ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>
                      .seed = o.seed,
                      .threads = o.threads,
                      .cancel = cancel,
-                     .log = &log};
+                     .log = &log,
+                     .parts = session.parts(),
+                     .first_piece = i * chosen.size()};
     if (o.time) m.seconds = std::max(1e-3, *o.time - log.elapsed()) / static_cast<double>(targets.size() - i);
     m.progress = [&](double done, const std::string& where) {
       progress.show((static_cast<double>(i) + done) / static_cast<double>(targets.size()), where);
     };
-    run.measurements.push_back(measure_convergence(targets[i], chosen, m));
+    const bool is_measured = pieces.attempt([&] {
+      run.measurements.push_back(measure_convergence(targets[i], chosen, m));
+      session.before_results();
+    });
     progress.clear();
+    if (!is_measured) continue;
     const Measurement& done = run.measurements.back();
     run.curves += count_finished(done);
     run.interrupted = done.interrupted;
     if (!done.curves.empty()) can_draw = write(results, targets[i], done, o, folder, can_draw);
   }
+  pieces.end();
+  if (!run.interrupted) log.save(); // else the replicates under way are saved
   return run;
 }
 
@@ -161,7 +172,7 @@ std::vector<Option> rows(ConvergeCommandOptions& o) {
           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
           resume_row(o.checkpoint),
       }};
-  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint, {"--time"});
   expert.options.insert(expert.options.end(), files.begin(), files.end());
   return in_groups({common, expression_group(o.integral.expression), foreign_group(o.integral.foreign),
                     scene_group(o.scene), expert});
@@ -199,9 +210,13 @@ void refuse_inputs(const ConvergeCommandOptions& o, const std::vector<IntegralTa
   require_distinct_files(files);
 }
 
-// The checkpoints of the run; null where none are asked for.
-std::unique_ptr<mc::Checkpoint> checkpoint_of(ConvergeCommandOptions o) {
-  return open_checkpoint(o.checkpoint, measurement_identity(rows(o), o.integral.integrands));
+RunSession session_of(ConvergeCommandOptions o) {
+  return {o.checkpoint, measurement_identity(rows(o), o.integral.integrands), o.output, o.command};
+}
+
+// The folder of the results; none for a part.
+std::filesystem::path output_folder_of(const ConvergeCommandOptions& o) {
+  return o.checkpoint.is_part() ? "" : mc::make_output_folder(o.output, "slopes.csv");
 }
 
 int run_converge_scene(const ConvergeCommandOptions& o) {
@@ -210,29 +225,58 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   const Interrupt interrupt;
   const IntegralTarget target = scene_target(o.integral.integrands[0]);
   refuse_inputs(o, {target});
-  const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
+  const std::filesystem::path folder = output_folder_of(o);
   const std::filesystem::path page = page_folder(o);
-  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
-  const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
-                                                              .samplers = o.samplers,
-                                                              .all = o.all,
-                                                              .pictures = o.replicates,
-                                                              .seconds = o.time.value_or(0),
-                                                              .seed = o.seed,
-                                                              .threads = o.threads,
-                                                              .cancel = interrupt.flag(),
-                                                              .checkpoint = checkpoint.get()});
-  const bool interrupted = pictures.measurement.interrupted;
-  if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
-  if (interrupted) print_how_to_resume(o.checkpoint);
-  if (pictures.methods.empty()) return exit_interrupted;
+  RunSession session = session_of(o);
+  return session.run([&] {
+    const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
+                                                                .samplers = o.samplers,
+                                                                .all = o.all,
+                                                                .pictures = o.replicates,
+                                                                .seconds = o.time.value_or(0),
+                                                                .seed = o.seed,
+                                                                .threads = o.threads,
+                                                                .cancel = interrupt.flag(),
+                                                                .checkpoint = session.checkpoint(),
+                                                                .executor = session.executor()});
+    session.before_results();
+    const bool interrupted = pictures.measurement.interrupted;
+    if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
+    if (interrupted) print_how_to_resume(o.checkpoint);
+    if (pictures.methods.empty()) return exit_interrupted;
+    ResultWriter results;
+    write(results, target, pictures.measurement, o, folder, true, &pictures);
+    fmt::print("{}", bias_summary(pictures));
+    write_slopes(results, folder, slopes_csv(target, pictures.measurement), interrupted);
+    write_report(results, page, o, {{&target, &pictures.measurement, &pictures}}, interrupted);
+    results.finish();
+    return interrupted ? exit_interrupted : exit_ok;
+  });
+}
+
+// Measures the targets, and writes the results. Returns the exit code.
+int measure_and_report(const ConvergeCommandOptions& o, const std::vector<IntegralTarget>& targets,
+                       const std::vector<SamplingMethod>& chosen, const std::filesystem::path& folder,
+                       const std::filesystem::path& page, const Interrupt& interrupt, const RunSession& session) {
   ResultWriter results;
-  write(results, target, pictures.measurement, o, folder, true, &pictures);
-  fmt::print("{}", bias_summary(pictures));
-  write_slopes(results, folder, slopes_csv(target, pictures.measurement), interrupted);
-  write_report(results, page, o, {{&target, &pictures.measurement, &pictures}}, interrupted);
+  const ConvergeRun run = measure_all(results, targets, chosen, o, folder, interrupt.flag(), session);
+  if (run.interrupted) print_how_to_resume(o.checkpoint);
+  std::string slopes;
+  std::vector<PageEntry> measured;
+  bool doubted = false;
+  for (std::size_t i = 0; i < run.measurements.size(); ++i) {
+    if (run.measurements[i].curves.empty()) continue;
+    slopes += slopes_csv(targets[i], run.measurements[i]);
+    measured.push_back({&targets[i], &run.measurements[i]});
+    doubted = doubted || !run.measurements[i].truth_warning.empty();
+  }
+  if (run.interrupted)
+    fmt::print("{}\n", interrupted_text(run.curves, targets.size() * chosen.size(), "curves", run.measurements.back()));
+  write_slopes(results, folder, slopes, run.interrupted);
+  write_report(results, page, o, measured, run.interrupted);
   results.finish();
-  return interrupted ? exit_interrupted : exit_ok;
+  if (run.interrupted) return exit_interrupted;
+  return doubted ? exit_failed : exit_ok;
 }
 
 int run_converge(const ConvergeCommandOptions& o) {
@@ -254,31 +298,11 @@ int run_converge(const ConvergeCommandOptions& o) {
       mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions",
                   w.name, w.max_dimensions, t.integral.name, t.integral.dim);
   refuse_inputs(o, targets);
-  const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
+  const std::filesystem::path folder = output_folder_of(o);
   const std::filesystem::path page = page_folder(o);
 
-  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
-  ReplicateLog log(checkpoint.get());
-  ResultWriter results;
-  const ConvergeRun run = measure_all(results, targets, chosen, o, folder, interrupt.flag(), log);
-  if (run.interrupted) print_how_to_resume(o.checkpoint); // the replicates under way are saved
-  else log.save();
-  std::string slopes;
-  std::vector<PageEntry> measured;
-  bool doubted = false;
-  for (std::size_t i = 0; i < run.measurements.size(); ++i) {
-    if (run.measurements[i].curves.empty()) continue;
-    slopes += slopes_csv(targets[i], run.measurements[i]);
-    measured.push_back({&targets[i], &run.measurements[i]});
-    doubted = doubted || !run.measurements[i].truth_warning.empty();
-  }
-  if (run.interrupted)
-    fmt::print("{}\n", interrupted_text(run.curves, targets.size() * chosen.size(), "curves", run.measurements.back()));
-  write_slopes(results, folder, slopes, run.interrupted);
-  write_report(results, page, o, measured, run.interrupted);
-  results.finish();
-  if (run.interrupted) return exit_interrupted;
-  return doubted ? exit_failed : exit_ok;
+  RunSession session = session_of(o);
+  return session.run([&] { return measure_and_report(o, targets, chosen, folder, page, interrupt, session); });
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <input/file_hash.h>
 #include <options/checkpoint_options.h>
 #include <options/files.h>
+#include <options/run_session.h>
 #include <options/subcommand.h>
 #include <picture/picture.h>
 #include <picture/resume.h>
@@ -59,7 +60,7 @@ std::vector<Option> rows(GalleryCommandOptions& o) {
                          {"--table", "", &o.table, "Print which scene requires which feature as Markdown, and stop."},
                          resume_row(o.checkpoint),
                      }};
-  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint, {"--time"});
   expert.options.insert(expert.options.end(), files.begin(), files.end());
   const Exclusion counted{"--spp", "--time and --target-error choose the number of samples"};
   return in_groups({
@@ -147,27 +148,50 @@ class GalleryRun {
   GalleryRun(const GalleryCommandOptions& options, std::filesystem::path folder, const std::atomic<bool>* cancel)
       : options_(options), folder_(std::move(folder)), cancel_(cancel) {}
 
-  void render_all(const std::vector<const GalleryScene*>& scenes) {
-    scene_count_ = scenes.size();
-    std::vector<SceneJob> jobs; // all are read first: a bad file is reported before any rendering
+  // Reads all scenes: a bad file is reported before any rendering.
+  void read_all(const std::vector<const GalleryScene*>& scenes) {
     for (const GalleryScene* scene : scenes) {
-      jobs.push_back(read(*scene, options_, cancel_));
-      work_ += jobs.back().work;
+      jobs_.push_back(read(*scene, options_, cancel_));
+      work_ += jobs_.back().work;
     }
-    refuse_inputs(jobs);
-    const std::unique_ptr<mc::Checkpoint> checkpoint = open_checkpoint(options_.checkpoint, identity_of(jobs));
-    const mc::Checkpoint::Section section(checkpoint.get(), "gallery",
+    refuse_inputs();
+  }
+
+  void render_all(const RunSession& session) {
+    mc::Checkpoint* const checkpoint = session.checkpoint();
+    const mc::Checkpoint::Section section(checkpoint, "gallery",
                                           [this](auto& a) { a(rendered_, thumbnails_, strategies_); });
     for (const RenderedScene& r : rendered_) print_line(r);
     require_pictures();
-    for (SceneJob& job : jobs) {
-      job.settings.checkpoint = checkpoint.get();
-      if (done_scenes_ == rendered_.size() && !render_one(job)) break;
-      ++done_scenes_;
+    const std::size_t earlier = rendered_.size();
+    mc::IndependentPieces pieces;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      SceneJob& job = jobs_[i];
+      job.settings.checkpoint = checkpoint;
+      job.settings.executor = session.executor();
+      bool is_cancelled = false;
+      pieces.attempt([&] { is_cancelled = i >= earlier && !render_one(job, session); });
+      if (is_cancelled) break;
       done_ += job.work;
     }
-    if (checkpoint && rendered_.size() == scene_count_) checkpoint->save_and_wait(); // else a render saved
     progress_.clear();
+    pieces.end();
+    if (checkpoint && rendered_.size() == jobs_.size()) checkpoint->save_and_wait(); // else a render saved
+  }
+
+  // The options, and the scenes with the bytes of their files.
+  mc::RunIdentity identity() const {
+    GalleryCommandOptions options = options_;
+    mc::RunIdentity identity = run_identity(rows(options), {"NAME", "--threads", "--resume", "--every"});
+    std::vector<std::string_view> names;
+    std::set<std::string> files;
+    for (const SceneJob& job : jobs_) {
+      names.push_back(job.scene->name);
+      files.insert(job.file.files.begin(), job.file.files.end());
+    }
+    identity.emplace_back("the scenes", fmt::format("{}", fmt::join(names, " ")));
+    identity.emplace_back("the content of the scenes' files", hash_of_files(files));
+    return identity;
   }
 
   const std::vector<RenderedScene>& rendered() const { return rendered_; }
@@ -176,30 +200,15 @@ class GalleryRun {
 
  private:
   // Throws Error where a picture would replace a file of a scene.
-  void refuse_inputs(const std::vector<SceneJob>& jobs) const {
+  void refuse_inputs() const {
     std::vector<UsedFile> files;
-    for (const SceneJob& job : jobs)
+    for (const SceneJob& job : jobs_)
       for (const char* extension : {".exr", ".png"})
         files.push_back({(folder_ / std::string(job.scene->name)).string() + extension, "-o", true});
     std::set<std::string> inputs;
-    for (const SceneJob& job : jobs) inputs.insert(job.file.files.begin(), job.file.files.end());
+    for (const SceneJob& job : jobs_) inputs.insert(job.file.files.begin(), job.file.files.end());
     for (const std::string& input : inputs) files.push_back({input, "a file of a scene"});
     require_distinct_files(files);
-  }
-
-  // The options, and the scenes with the bytes of their files.
-  mc::RunIdentity identity_of(const std::vector<SceneJob>& jobs) const {
-    GalleryCommandOptions options = options_;
-    mc::RunIdentity identity = run_identity(rows(options), {"NAME", "--threads", "--resume", "--every"});
-    std::vector<std::string_view> names;
-    std::set<std::string> files;
-    for (const SceneJob& job : jobs) {
-      names.push_back(job.scene->name);
-      files.insert(job.file.files.begin(), job.file.files.end());
-    }
-    identity.emplace_back("the scenes", fmt::format("{}", fmt::join(names, " ")));
-    identity.emplace_back("the content of the scenes' files", hash_of_files(files));
-    return identity;
   }
 
   // Throws Error where a picture of the run behind a checkpoint is not in the folder.
@@ -222,14 +231,21 @@ class GalleryRun {
   }
 
   // Returns false when interrupted; an unfinished scene is not kept.
-  bool render_one(SceneJob& a) {
+  bool render_one(SceneJob& a, const RunSession& session) {
     const std::string title(a.scene->name);
+    a.settings.name = title;
     a.settings.progress = [&](const render::Progress& p) {
       progress_.show((done_ + p.fraction * a.work) / work_,
-                     fmt::format("{} of {}: {}", rendered_.size() + 1, scene_count_, title));
+                     fmt::format("{} of {}: {}", rendered_.size() + 1, jobs_.size(), title));
     };
-    render::RenderResult result = render::render(a.file.scene, a.settings);
+    mc::IndependentPieces pieces; // a part renders its share of both
+    render::RenderResult result;
+    pieces.attempt([&] { result = render::render(a.file.scene, a.settings); });
     if (result.partial) return false;
+    std::vector<StrategyResult> compared;
+    pieces.attempt([&] { compared = strategies(a); });
+    pieces.end();
+    session.before_results();
     const Provenance from{title, options_.command, options_.seed};
     const std::string invalid = invalid_samples_text(result, from);
     mc::require(invalid.empty(), "{}: {}", title, invalid);
@@ -242,7 +258,7 @@ class GalleryRun {
     results_.write(path + ".png", false,
                    [&](const std::string& file) { render::write_image(file, result.image, tone_of(*a.scene)); });
     RenderedScene r = report(a, result);
-    r.strategies = strategies(a);
+    r.strategies = std::move(compared);
     if (cancel_->load()) return false;
     keep_thumbnail(a, result.image);
     print_line(r);
@@ -252,10 +268,15 @@ class GalleryRun {
 
   // Computed once for all scenes that share a file.
   const std::vector<StrategyResult>& strategies(const SceneJob& a) {
-    const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
-    if (is_new && a.settings.aov.kind == render::Aov::radiance)
-      place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
-    return place->second;
+    const std::string file = scene_file(*a.scene);
+    if (const auto found = strategies_.find(file); found != strategies_.end()) return found->second;
+    if (!incomplete_.insert(file).second) throw mc::EndOfPart(); // another scene of the file tried before
+    std::vector<StrategyResult> all;
+    render::RenderOptions settings = a.settings;
+    settings.name = "strategies of " + file;
+    if (a.settings.aov.kind == render::Aov::radiance)
+      all = compare_strategies(a.file.scene, settings, 64, std::min(64, a.settings.spp));
+    return strategies_[file] = std::move(all);
   }
 
   void keep_thumbnail(const SceneJob& a, render::Image image) {
@@ -269,11 +290,12 @@ class GalleryRun {
   const std::atomic<bool>* cancel_;
   ProgressLine progress_;
   ResultWriter results_;
-  std::size_t scene_count_ = 0, done_scenes_ = 0;
+  std::vector<SceneJob> jobs_;
   double work_ = 0, done_ = 0;
   std::vector<RenderedScene> rendered_;
   std::vector<render::Image> thumbnails_;
-  std::map<std::string, std::vector<StrategyResult>> strategies_;
+  std::map<std::string, std::vector<StrategyResult>> strategies_; ///< by the file of the scene
+  std::set<std::string> incomplete_;                              ///< files whose strategies were tried
 };
 
 render::Image sheet_of(const GalleryRun& run, int side) {
@@ -281,6 +303,25 @@ render::Image sheet_of(const GalleryRun& run, int side) {
   if (side >= least_named)
     for (const RenderedScene& r : run.rendered()) labels.cells.emplace_back(r.scene->name);
   return contact_sheet(run.thumbnails(), std::clamp(sheet_width / side, 1, most_columns), side, labels);
+}
+
+// Writes what was rendered. Returns the exit code.
+int write_page(GalleryRun& run, const GalleryCommandOptions& o, const std::filesystem::path& folder,
+               std::size_t scenes) {
+  const std::size_t finished = run.rendered().size();
+  if (finished > 0) {
+    const bool is_partial = finished < scenes;
+    const render::Image sheet = sheet_of(run, o.thumbnail_side);
+    run.results().write((folder / "sheet.png").string(), is_partial,
+                        [&](const std::string& file) { render::write_image(file, sheet); });
+    fmt::print("page: {}\n", run.results().write((folder / "index.html").string(), is_partial,
+                                                 gallery_page(run.rendered(), scenes, o.command)));
+  }
+  run.results().finish();
+  if (finished == scenes) return exit_ok;
+  fmt::print("interrupted: {} of {} scenes were finished\n", finished, scenes);
+  print_how_to_resume(o.checkpoint);
+  return exit_interrupted;
 }
 
 int run_gallery(const GalleryCommandOptions& o) {
@@ -299,25 +340,16 @@ int run_gallery(const GalleryCommandOptions& o) {
   mc::require(o.thumbnail_side >= 16 && o.thumbnail_side <= 1024, "--thumbnails {} must lie in [16, 1024]",
               o.thumbnail_side);
   const std::vector<const GalleryScene*> scenes = chosen_scenes(o);
-  const std::filesystem::path folder = mc::make_output_folder(o.output, "index.html");
+  const std::filesystem::path folder = o.checkpoint.is_part() ? "" : mc::make_output_folder(o.output, "index.html");
 
   const Interrupt interrupt;
   GalleryRun run(o, folder, interrupt.flag());
-  run.render_all(scenes);
-  const std::size_t finished = run.rendered().size();
-  if (finished > 0) {
-    const bool is_partial = finished < scenes.size();
-    const render::Image sheet = sheet_of(run, o.thumbnail_side);
-    run.results().write((folder / "sheet.png").string(), is_partial,
-                        [&](const std::string& file) { render::write_image(file, sheet); });
-    fmt::print("page: {}\n", run.results().write((folder / "index.html").string(), is_partial,
-                                                 gallery_page(run.rendered(), scenes.size(), o.command)));
-  }
-  run.results().finish();
-  if (finished == scenes.size()) return exit_ok;
-  fmt::print("interrupted: {} of {} scenes were finished\n", finished, scenes.size());
-  print_how_to_resume(o.checkpoint);
-  return exit_interrupted;
+  run.read_all(scenes);
+  RunSession session(o.checkpoint, run.identity(), o.output, o.command);
+  return session.run([&] {
+    run.render_all(session);
+    return write_page(run, o, folder, scenes.size());
+  });
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <options/expression_help.h>
 #include <options/expression_options.h>
 #include <options/foreign_options.h>
+#include <options/run_session.h>
 #include <options/subcommand.h>
 #include <report/integrate_output.h>
 #include <report/plot.h>
@@ -19,6 +20,7 @@
 #include <mc/core/text.h>
 #include <mc/estimate/adapt/density_file.h>
 #include <mc/estimate/values/quantiles.h>
+#include <mc/run/job_log.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,10 +49,26 @@ struct IntegrateCommandOptions {
   std::string histogram, quantiles;
   std::string save_density, load_density;
   std::string json, output;
+  CheckpointFiles checkpoint;
   std::string command;
 };
 
 std::vector<Option> rows(IntegrateCommandOptions& o) {
+  OptionGroup expert{
+      expert_options,
+      {
+          {"--method", "NAME", &o.method, "Estimator: auto, plain, stratified, rqmc, vegas or tree."},
+          output_file(
+              {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."}),
+          input_file(
+              {"--load-density", "FILE", &o.load_density,
+               "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
+               "where it does not fit."}),
+          {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+          resume_row(o.checkpoint),
+      }};
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  expert.options.insert(expert.options.end(), files.begin(), files.end());
   return in_groups({
       {common_options,
        {
@@ -92,17 +110,7 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
             "Print quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95. Takes as many calls again, at least "
             "98 k and at most 2^24 / (dimensions + 1)."},
        }},
-      {expert_options,
-       {
-           {"--method", "NAME", &o.method, "Estimator: auto, plain, stratified, rqmc, vegas or tree."},
-           output_file(
-               {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."}),
-           input_file(
-               {"--load-density", "FILE", &o.load_density,
-                "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
-                "where it does not fit."}),
-           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
-       }},
+      expert,
   });
 }
 
@@ -233,7 +241,7 @@ IntegrandSets integrands_of(const IntegrateCommandOptions& o, IntegrateResults& 
   mc::require(found.integrands.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
               "integrate: --histogram and --quantiles are of one integrand; {} were given", found.integrands.size());
   mc::require(!found.is_sweep() || !o.rounds, "integrate: --rounds is of one run, not of a sweep");
-  mc::require(found.is_sweep() || o.output.empty(),
+  mc::require(found.is_sweep() || o.output.empty() || o.checkpoint.is_part(),
               "--output is for a sweep, as --set a=1:3:0.5; --json writes a single result");
   return sets;
 }
@@ -293,45 +301,46 @@ int exit_code_of(const IntegrateResults& found, const mc::IntegrateOptions& o) {
   return exit_failed;
 }
 
-int run_integrate(const IntegrateCommandOptions& o) {
-  if (o.list) {
-    for (const UnitCubeIntegral* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
-    return exit_ok;
-  }
-  mc::require(o.save_density != "-", "--save-density: a density goes to a file; name one");
-  if (!o.save_density.empty()) mc::require_writable(o.save_density);
-  const ResultFile json(o.json);
-  IntegrateResults found{.integrands = {}, .results = {}};
-  const IntegrandSets sets = integrands_of(o, found);
-  const IntegrandSet& set = sets.front();
-  for (const std::string& expression : o.derived)
-    mc::with_context("--derive", [&] { parse_function(expression, names_of(set, given_names(o))); });
-  const std::filesystem::path folder = o.output.empty() ? "" : mc::make_output_folder(o.output, "sweep.csv");
-  const std::vector<double> wanted = probabilities(o.quantiles);
-  if (!wanted.empty()) measure_of(set, "--quantiles");
-  mc::IntegrateOptions settings = settings_of(o);
-  constexpr std::uint64_t least_of_sweep = 1 << 14;
-  if (found.is_sweep()) settings.max_calls = std::max(o.max_calls / sets.size(), std::min(o.max_calls, least_of_sweep));
-  Histogram histogram;
-  if (!o.histogram.empty()) histogram = make_histogram(o.histogram, set, o.seed);
+/// Files of the results, and the quantiles that are wanted.
+struct IntegrateOutputs {
+  ResultFile json;
+  std::filesystem::path folder = {}; ///< of a sweep
+  std::vector<double> quantiles = {};
+
+  explicit IntegrateOutputs(const std::string& file) : json(file) {}
+};
+
+// Everything that the estimates depend on.
+mc::RunIdentity identity_of(IntegrateCommandOptions o) {
+  return run_identity(rows(o), {"--list", "--name", "--derive", "--rounds", "--quantiles", "--threads", "--timeout",
+                                "--memory", "--resume", "--every"});
+}
+
+// Returns false when interrupted before the first estimate.
+bool estimate(IntegrateResults& found, const IntegrandSets& sets, const Histogram& histogram,
+              mc::IntegrateOptions& settings) {
   ProgressLine progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
     progress.show(double(p.calls) / double(settings.max_calls),
                   fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
   };
-  const Interrupt interrupt;
-  settings.cancel = interrupt.flag();
   try {
     found.results = integrate_sets(sets, histogram, settings);
   } catch (const mc::NotFinite& e) {
     throw mc::Error(in_variables(e, sets));
   } catch (const mc::Error&) {
-    if (!*interrupt.flag()) throw;
+    if (!*settings.cancel) throw;
     progress.clear();
     fmt::print(stderr, "interrupted before anything was estimated\n");
-    return exit_interrupted;
+    return false;
   }
-  progress.clear();
+  return true;
+}
+
+// Prints and writes the results. Returns the exit code.
+int report(const IntegrateCommandOptions& o, IntegrateResults& found, const IntegrandSets& sets,
+           const Histogram& histogram, const mc::IntegrateOptions& settings, const IntegrateOutputs& outputs,
+           const Interrupt& interrupt) {
   for (const IntegrandSet& one : sets)
     if (one.expression) found.replaced += one.expression->take_replaced();
   found.replacement = o.expression.nan.value_or(0);
@@ -344,21 +353,22 @@ int run_integrate(const IntegrateCommandOptions& o) {
     found.histogram.push_back(histogram.bins[k]);
     found.histogram.back().integral = found.results.outputs[1 + k];
   }
-  const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, set, wanted, o, interrupt);
+  const bool cancelled =
+      r.stop == mc::StopReason::cancelled || !find_quantiles(found, sets.front(), outputs.quantiles, o, interrupt);
 
   for (mc::Integral& integral : found.results.outputs) { // a call of a sweep evaluates all of its points
     integral.calls *= sets.size();
     for (mc::IntegrateRound& round : integral.rounds) round.calls *= sets.size();
   }
-  add_derived(found, names_of(set, given_names(o)), o.derived);
+  add_derived(found, names_of(sets.front(), given_names(o)), o.derived);
   ResultWriter results;
   if (found.is_sweep()) {
     fmt::print("{}{}", sweep_table(found), calls_text(found));
-    write_sweep(results, found, folder, cancelled);
+    write_sweep(results, found, outputs.folder, cancelled);
   } else
     fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found),
                quantile_table(found));
-  if (json.is_wanted()) json.write(results, cancelled, integrals_json(found, o.command, o.seed));
+  if (outputs.json.is_wanted()) outputs.json.write(results, cancelled, integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
     mc::require(r.density != nullptr || cancelled,
                 "--save-density: nothing was learned by {} in {} calls, and {} is not written; "
@@ -369,6 +379,44 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   results.finish();
   return cancelled ? exit_interrupted : exit_code_of(found, settings);
+}
+
+int run_integrate(const IntegrateCommandOptions& o) {
+  if (o.list) {
+    for (const UnitCubeIntegral* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
+    return exit_ok;
+  }
+  mc::require(o.save_density != "-", "--save-density: a density goes to a file; name one");
+  if (!o.save_density.empty()) mc::require_writable(o.save_density);
+  IntegrateOutputs outputs(o.json);
+  IntegrateResults found{.integrands = {}, .results = {}};
+  const IntegrandSets sets = integrands_of(o, found);
+  const IntegrandSet& set = sets.front();
+  for (const std::string& expression : o.derived)
+    mc::with_context("--derive", [&] { parse_function(expression, names_of(set, given_names(o))); });
+  if (!o.output.empty() && !o.checkpoint.is_part()) outputs.folder = mc::make_output_folder(o.output, "sweep.csv");
+  outputs.quantiles = probabilities(o.quantiles);
+  if (!outputs.quantiles.empty()) measure_of(set, "--quantiles");
+  mc::IntegrateOptions settings = settings_of(o);
+  constexpr std::uint64_t least_of_sweep = 1 << 14;
+  if (found.is_sweep()) settings.max_calls = std::max(o.max_calls / sets.size(), std::min(o.max_calls, least_of_sweep));
+  Histogram histogram;
+  if (!o.histogram.empty()) histogram = make_histogram(o.histogram, set, o.seed);
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
+  RunSession session(o.checkpoint, identity_of(o), o.output, o.command);
+  mc::require(!o.expression.nan || !session.is_shared(),
+              "--nan counts the values that it replaces within one process: leave out --nan, or run without a "
+              "checkpoint, parts and mpirun");
+  return session.run([&]() -> int {
+    mc::JobLog log(session.checkpoint(), session.executor());
+    if (session.is_shared()) settings.executor = log.executor();
+    const bool is_estimated = estimate(found, sets, histogram, settings);
+    session.before_results();
+    if (*interrupt.flag()) print_how_to_resume(o.checkpoint);
+    else log.save();
+    return is_estimated ? report(o, found, sets, histogram, settings, outputs, interrupt) : exit_interrupted;
+  });
 }
 
 } // namespace

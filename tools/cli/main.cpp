@@ -6,6 +6,7 @@
 #include <terminal/columns.h>
 #include <terminal/interrupt.h>
 #include <terminal/message.h>
+#include <terminal/ranks.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -31,6 +32,8 @@
 #include <iostream>
 #include <limits>
 #include <new>
+#include <optional>
+#include <string_view>
 #include <system_error>
 
 namespace {
@@ -170,7 +173,9 @@ int run(int argc, char** argv) {
   require_compatible(app, *given());
   carlo::require_distinct_files(carlo::files_of(given()->options));
   std::string command = "carlo";
-  for (int i = 1; i < argc; ++i) command += " " + quoted(argv[i]);
+  for (int i = 1; i < argc; ++i)
+    if (std::string(argv[i]) == "--merged-part") ++i; // not the user's: see cli/merge.cpp
+    else command += " " + quoted(argv[i]);
   const int code = given()->run(command);
   const int signal = carlo::Interrupt::signal();
   return code == carlo::exit_interrupted && signal != 0 ? 128 + signal : code;
@@ -212,6 +217,34 @@ int finish(int code) {
   return code;
 }
 
+void fail(const std::string& reason) {
+  carlo::print_message(reason);
+  carlo::Ranks::report_failure(reason);
+}
+
+// The exit code of carlo. Prints one line on standard error where it fails.
+int run_and_finish(int argc, char** argv) {
+  try {
+    const int code = finish(run(argc, argv));
+    return carlo::rank() == 0 ? code : int(carlo::exit_ok);
+  } catch (const mc::EndOfRanks&) {
+    return carlo::exit_ok;
+  } catch (const mc::LostRank& e) {
+    carlo::print_message(e.what());
+    return carlo::exit_failed;
+  } catch (const std::bad_alloc&) {
+    fail("out of memory; ask for a smaller image or fewer samples");
+  } catch (const std::filesystem::filesystem_error& e) {
+    fail(fmt::format("cannot use '{}': {}", e.path1().string(), e.code().message()));
+  } catch (const std::system_error& e) { // of fmt::print and ResultFile
+    if (e.code() == std::errc::broken_pipe) end_by_closed_pipe();
+    fail("cannot write to standard output: " + e.code().message());
+  } catch (const std::exception& e) {
+    fail(e.what());
+  }
+  return carlo::rank() == 0 ? carlo::exit_bad_input : carlo::exit_ok;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -219,15 +252,10 @@ int main(int argc, char** argv) {
   keep_memory();
   // A write to a closed pipe, or beyond a limit of the file size, fails instead of ending carlo.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  const bool is_worker = argc > 1 && std::string_view(argv[1]) == "worker"; // of a rank, and no rank itself
   try {
-    return finish(run(argc, argv));
-  } catch (const std::bad_alloc&) {
-    carlo::print_message("out of memory; ask for a smaller image or fewer samples");
-  } catch (const std::filesystem::filesystem_error& e) {
-    carlo::print_message(fmt::format("cannot use '{}': {}", e.path1().string(), e.code().message()));
-  } catch (const std::system_error& e) { // of fmt::print and ResultFile
-    if (e.code() == std::errc::broken_pipe) end_by_closed_pipe();
-    carlo::print_message("cannot write to standard output: " + e.code().message());
+    const std::optional<carlo::Ranks> ranks = is_worker ? std::nullopt : std::optional<carlo::Ranks>(std::in_place);
+    return run_and_finish(argc, argv);
   } catch (const std::exception& e) {
     carlo::print_message(e.what());
   }

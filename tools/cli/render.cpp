@@ -4,6 +4,7 @@
 #include <options/files.h>
 #include <options/memory_option.h>
 #include <options/pixels.h>
+#include <options/run_session.h>
 #include <picture/picture.h>
 #include <picture/resume.h>
 #include <terminal/columns.h>
@@ -258,65 +259,23 @@ void refuse_contradictions(const RenderCommandOptions& o) {
   mc::require(!o.target_error, reason, "--target-error");
   mc::require(o.intervals.empty(), reason, "--intervals");
   mc::require(o.checkpoint.checkpoint.empty(), reason, "--checkpoint");
+  mc::require(!o.checkpoint.is_part() && o.checkpoint.merged.empty(), reason, "--part");
 }
 
-// The checkpoints of a run with these settings; null where none are asked for.
-std::unique_ptr<mc::Checkpoint> checkpoint_of(const RenderCommandOptions& o, const RenderFingerprint& fingerprint,
-                                              const render::RenderOptions& settings) {
-  return open_checkpoint(checkpoint_files(o), render_identity(fingerprint, settings));
-}
-
-int run_render(const RenderCommandOptions& options) {
-  if (options.help_scene || options.list_strategies) {
-    fmt::print("{}",
-               options.help_scene ? render::mitsuba::reference() : strategies_text(terminal_columns(STDOUT_FILENO)));
-    return exit_ok;
-  }
-  refuse_contradictions(options);
-  limit_memory(options.memory);
-  const std::string output = output_of(options);
-  check_outputs(options, output);
-
-  const GalleryScene* named = named_scene(options.scene);
-  const std::string file = named ? scene_file(*named) : options.scene;
-  const render::SceneFile read = read_scene(file, options);
-  const auto& [scene, defaults, origin, warnings, files] = read;
-  refuse_inputs(files, options, output);
-  warn_about_scene_file(read);
-  if (scene.lights().empty() && defaults.aov.kind == render::Aov::radiance)
-    warn("{} has no light; the image will be black", file);
-
-  warn_if_imprecise(file, scene);
-
-  render::RenderOptions settings = settings_of(options, defaults, named);
-  render::ToneMapping tone = tone_of(options, named);
-  if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
-  mc::require(has_extension(output, ".png") || (options.tone.empty() && options.exposure.empty()),
-              "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
-              output);
-  warn_where_light_is_missed(scene, settings);
-  ProgressLine progress;
-  if (progress.is_visible())
-    settings.progress = [&](const render::Progress& p) {
-      progress.show(p.fraction, progress_text(p, options.target_error));
-    };
-
-  const render::Crop part = crop_of(settings);
-  const RenderFingerprint fingerprint =
-      render_fingerprint(file, options.dialect, options.variables, read, settings, part);
-  std::optional<FileLock> lock; // until the new picture is written
+// A picture to render, and its outputs.
+struct RenderWork {
+  const RenderCommandOptions& options;
+  const render::SceneFile& read;
+  const RenderFingerprint& fingerprint;
+  std::string file, output; // of the scene and of the picture
+  bool replaces_resumed;    // whether the picture of --resume is the output
   std::optional<ResumeState> resumed;
-  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(options, fingerprint, settings);
-  const std::string picture = picture_to_resume(options, output);
-  if (!picture.empty() && std::filesystem::exists(picture)) lock.emplace(picture);
-  if (!picture.empty()) resumed = load_resume_state(picture, fingerprint, part, settings);
-  const Interrupt interrupt;
-  settings.cancel = interrupt.flag();
-  settings.checkpoint = checkpoint.get();
-  render::RenderResult result = render::render(scene, settings);
-  progress.clear();
-  if (result.partial) print_how_to_resume(checkpoint_files(options));
+  render::ToneMapping tone;
+};
 
+// Completes the picture, and writes it. Returns the exit code.
+int write_picture(RenderWork& work, render::RenderResult& result, const render::RenderOptions& settings) {
+  const auto& [options, read, fingerprint, file, output, replaces_resumed, resumed, tone] = work;
   if (resumed ? result.estimates == 0 : result.missing_rows == result.image.height) {
     fmt::print("interrupted before {}; {} {}\n", resumed ? "every pixel had a new sample" : "a row was rendered",
                output, resumed ? "is unchanged" : "was not written");
@@ -332,17 +291,76 @@ int run_render(const RenderCommandOptions& options) {
   for (const auto& [key, value] : fingerprint) result.image.metadata[key] = value;
   if (resumed) accumulate_into(*resumed, result);
   if (options.layers) {
-    const render::ImageExtent extent{settings.width, settings.height, part};
-    result.image.layers = layers(scene, extent, origin, settings.threads);
+    const render::ImageExtent extent{settings.width, settings.height, crop_of(settings)};
+    result.image.layers = layers(read.scene, extent, read.origin, settings.threads);
   }
-  if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);
-  const std::string written = write_results(options, output, result, picture == output, tone);
+  if (options.exposure == "auto") work.tone.exposure = auto_exposure(result.image);
+  const std::string written = write_results(options, output, result, replaces_resumed, tone);
 
   fmt::print("{}", render_summary(written, result, options.target_error));
   if (resumed)
     fmt::print("  with the earlier runs: {:.4g} samples per pixel of {} runs{}\n", resumed->spp + result.spp,
                resumed->runs + 1, result.image.variance.empty() ? "; no error bar, as one run took one sample" : "");
   return result.partial ? exit_interrupted : exit_ok;
+}
+
+int run_render(const RenderCommandOptions& options) {
+  if (options.help_scene || options.list_strategies) {
+    fmt::print("{}",
+               options.help_scene ? render::mitsuba::reference() : strategies_text(terminal_columns(STDOUT_FILENO)));
+    return exit_ok;
+  }
+  refuse_contradictions(options);
+  limit_memory(options.memory);
+  const std::string output = output_of(options);
+  if (!options.checkpoint.is_part()) check_outputs(options, output);
+
+  const GalleryScene* named = named_scene(options.scene);
+  const std::string file = named ? scene_file(*named) : options.scene;
+  const render::SceneFile read = read_scene(file, options);
+  const auto& [scene, defaults, origin, warnings, files] = read;
+  refuse_inputs(files, options, output);
+  warn_about_scene_file(read);
+  if (scene.lights().empty() && defaults.aov.kind == render::Aov::radiance)
+    warn("{} has no light; the image will be black", file);
+
+  warn_if_imprecise(file, scene);
+
+  render::RenderOptions settings = settings_of(options, defaults, named);
+  const render::ToneMapping tone = tone_of(options, named);
+  if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
+  mc::require(options.checkpoint.is_part() || has_extension(output, ".png") ||
+                  (options.tone.empty() && options.exposure.empty()),
+              "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
+              output);
+  warn_where_light_is_missed(scene, settings);
+  ProgressLine progress;
+  if (progress.is_visible())
+    settings.progress = [&](const render::Progress& p) {
+      progress.show(p.fraction, progress_text(p, options.target_error));
+    };
+
+  const render::Crop part = crop_of(settings);
+  const RenderFingerprint fingerprint =
+      render_fingerprint(file, options.dialect, options.variables, read, settings, part);
+  std::optional<FileLock> lock; // until the new picture is written
+  std::optional<ResumeState> resumed;
+  RunSession session(checkpoint_files(options), render_identity(fingerprint, settings), output, options.command);
+  const std::string picture = picture_to_resume(options, output);
+  if (!picture.empty() && std::filesystem::exists(picture)) lock.emplace(picture);
+  if (!picture.empty()) resumed = load_resume_state(picture, fingerprint, part, settings);
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
+  settings.checkpoint = session.checkpoint();
+  settings.executor = session.executor();
+  RenderWork work{options, read, fingerprint, file, output, picture == output, std::move(resumed), tone};
+  return session.run([&] {
+    render::RenderResult result = render::render(read.scene, settings);
+    progress.clear();
+    if (result.partial) print_how_to_resume(checkpoint_files(options));
+    session.before_results();
+    return write_picture(work, result, settings);
+  });
 }
 
 } // namespace

@@ -124,7 +124,7 @@ OptionGroup expert_group(RenderCommandOptions& o) {
           {"--allow-invalid", "", &o.allow_invalid,
            "Write the image although some samples were not finite. They are left out."},
       }};
-  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint, {"--time", "--compare-strategies"});
   group.options.insert(group.options.begin(), files.begin(), files.end());
   return group;
 }

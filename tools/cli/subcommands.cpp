@@ -12,6 +12,7 @@ namespace carlo {
   row(integrate);                                                                                                      \
   row(render);                                                                                                         \
   row(gallery);                                                                                                        \
+  row(merge);                                                                                                          \
   row(compare);                                                                                                        \
   row(worker)
 

@@ -2,10 +2,10 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <converge/trade.h>
-#include <options/checkpoint_options.h>
 #include <options/expression_help.h>
 #include <options/expression_options.h>
 #include <options/integral_options.h>
+#include <options/run_session.h>
 #include <options/subcommand.h>
 #include <report/plot.h>
 #include <report/report_json.h>
@@ -223,7 +223,7 @@ std::vector<Option> rows(TradeCommandOptions& o) {
                          {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
                          resume_row(o.checkpoint),
                      }};
-  const std::vector<Option> files = checkpoint_rows(o.checkpoint);
+  const std::vector<Option> files = checkpoint_rows(o.checkpoint, {"--time"});
   expert.options.insert(expert.options.end(), files.begin(), files.end());
   return in_groups({common, expression_group(o.integral.expression), foreign_group(o.integral.foreign), scene, expert});
 }
@@ -235,9 +235,11 @@ struct TradeGoals {
 
 /// Output folders, checked before any work.
 struct OutputFolders {
-  std::filesystem::path data, page; ///< page: empty without --report
+  std::filesystem::path data, page; ///< page: empty without --report; both empty for a part
 
-  explicit OutputFolders(const TradeCommandOptions& o) : data(mc::make_output_folder(o.output, "trade.json")) {
+  explicit OutputFolders(const TradeCommandOptions& o) {
+    if (o.checkpoint.is_part()) return;
+    data = mc::make_output_folder(o.output, "trade.json");
     if (!o.report.empty()) page = mc::make_output_folder(o.report, "index.html");
   }
 };
@@ -322,9 +324,8 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
   return reached && m.truth_warning.empty() ? exit_ok : exit_failed;
 }
 
-// The checkpoints of the run; null where none are asked for.
-std::unique_ptr<mc::Checkpoint> checkpoint_of(TradeCommandOptions o) {
-  return open_checkpoint(o.checkpoint, measurement_identity(rows(o), o.integral.integrands));
+RunSession session_of(TradeCommandOptions o) {
+  return {o.checkpoint, measurement_identity(rows(o), o.integral.integrands), o.output, o.command};
 }
 
 int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
@@ -332,48 +333,36 @@ int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
   const Interrupt interrupt;
   const IntegralTarget target = scene_target(o.integral.integrands[0]);
   const OutputFolders folders(o);
-  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
-  const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
-                                                              .samplers = o.samplers,
-                                                              .for_trade = true,
-                                                              .seconds = o.time.value_or(0),
-                                                              .seed = o.seed,
-                                                              .threads = o.threads,
-                                                              .cancel = interrupt.flag(),
-                                                              .checkpoint = checkpoint.get()});
-  const Measurement& m = pictures.measurement;
-  if (m.interrupted) fmt::print("{}\n", interruption_summary(pictures));
-  if (m.interrupted) print_how_to_resume(o.checkpoint);
-  if (pictures.methods.empty()) return exit_interrupted;
-  if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
-  fmt::print("{}: {} methods, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
-  fmt::print("{}", bias_summary(pictures));
-  // The pictures were already rendered in turn.
-  const TradeResults trade_results =
-      trade_results_of(m, wanted, [](const std::vector<TradeCandidate>&) { return measured_cost; });
-  const int code = report(o, {&target, &m, &pictures, &trade_results}, folders);
-  return m.interrupted ? exit_interrupted : code;
+  RunSession session = session_of(o);
+  return session.run([&] {
+    const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
+                                                                .samplers = o.samplers,
+                                                                .for_trade = true,
+                                                                .seconds = o.time.value_or(0),
+                                                                .seed = o.seed,
+                                                                .threads = o.threads,
+                                                                .cancel = interrupt.flag(),
+                                                                .checkpoint = session.checkpoint(),
+                                                                .executor = session.executor()});
+    session.before_results();
+    const Measurement& m = pictures.measurement;
+    if (m.interrupted) fmt::print("{}\n", interruption_summary(pictures));
+    if (m.interrupted) print_how_to_resume(o.checkpoint);
+    if (pictures.methods.empty()) return int(exit_interrupted);
+    if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
+    fmt::print("{}: {} methods, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
+    fmt::print("{}", bias_summary(pictures));
+    // The pictures were already rendered in turn.
+    const TradeResults trade_results =
+        trade_results_of(m, wanted, [](const std::vector<TradeCandidate>&) { return measured_cost; });
+    const int code = report(o, {&target, &m, &pictures, &trade_results}, folders);
+    return m.interrupted ? int(exit_interrupted) : code;
+  });
 }
 
-int run_trade(const TradeCommandOptions& o) {
-  if (o.integral.list) return list_integrals();
-  mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
-  TradeGoals wanted;
-  if (!o.errors.empty()) wanted.errors = parse_positive_list("--error", o.errors, 1e300);
-  if (!o.seconds.empty()) wanted.seconds = parse_positive_list("--seconds", o.seconds, 1e9);
-  if (is_scene(o.integral.integrands)) return run_trade_scene(o, wanted);
-  refuse_scene_among(o.integral.integrands);
-  refuse_scene_options(o.scene);
-  mc::require(o.samplers.empty(), "trade: --samplers is for a scene (.xml); an integral has all");
-  const Interrupt interrupt;
-  const std::vector<IntegralTarget> targets = targets_of(o.integral);
-  const bool is_named = !o.integral.integrands.empty() || o.integral.foreign.is_given();
-  mc::require(targets.size() == 1 && is_named, "trade: name one integrand; --list shows them");
-  if (!o.integral.expression.domain.empty() && !o.integral.foreign.is_given())
-    refuse_constant(o.integral.integrands[0], o.integral.expression);
-  const IntegralTarget& target = targets.front();
-  const OutputFolders folders(o);
-
+// Measures the methods, and writes the choice. Returns the exit code.
+int measure_and_report(const TradeCommandOptions& o, const IntegralTarget& target, TradeGoals wanted,
+                       const OutputFolders& folders, const Interrupt& interrupt, const RunSession& session) {
   const std::vector<SamplingMethod> chosen = configurations(target);
   ProgressLine progress;
   MeasureOptions options{.max_n = o.integral.max_n, .seed = o.seed, .threads = o.threads, .cancel = interrupt.flag()};
@@ -382,11 +371,12 @@ int run_trade(const TradeCommandOptions& o) {
   if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
   if (!seconds.empty()) options.cpu_goal = *std::max_element(seconds.begin(), seconds.end());
   options.progress = [&](double done, const std::string& where) { progress.show(done, where); };
-  const std::unique_ptr<mc::Checkpoint> checkpoint = checkpoint_of(o);
-  ReplicateLog log(checkpoint.get());
+  ReplicateLog log(session.checkpoint(), session.executor());
   options.log = &log;
+  options.parts = session.parts();
   Measurement m = measure_convergence(target, chosen, options);
   progress.clear();
+  session.before_results();
   if (m.interrupted) print_how_to_resume(o.checkpoint); // the replicates under way are saved
   else log.save();
   if (m.curves.empty()) {
@@ -413,6 +403,29 @@ int run_trade(const TradeCommandOptions& o) {
                options.max_n);
   const int code = report(o, {&target, &m, nullptr, &trade_results}, folders);
   return m.interrupted ? exit_interrupted : code;
+}
+
+int run_trade(const TradeCommandOptions& o) {
+  if (o.integral.list) return list_integrals();
+  mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
+  TradeGoals wanted;
+  if (!o.errors.empty()) wanted.errors = parse_positive_list("--error", o.errors, 1e300);
+  if (!o.seconds.empty()) wanted.seconds = parse_positive_list("--seconds", o.seconds, 1e9);
+  if (is_scene(o.integral.integrands)) return run_trade_scene(o, wanted);
+  refuse_scene_among(o.integral.integrands);
+  refuse_scene_options(o.scene);
+  mc::require(o.samplers.empty(), "trade: --samplers is for a scene (.xml); an integral has all");
+  const Interrupt interrupt;
+  const std::vector<IntegralTarget> targets = targets_of(o.integral);
+  const bool is_named = !o.integral.integrands.empty() || o.integral.foreign.is_given();
+  mc::require(targets.size() == 1 && is_named, "trade: name one integrand; --list shows them");
+  if (!o.integral.expression.domain.empty() && !o.integral.foreign.is_given())
+    refuse_constant(o.integral.integrands[0], o.integral.expression);
+  const IntegralTarget& target = targets.front();
+  const OutputFolders folders(o);
+
+  RunSession session = session_of(o);
+  return session.run([&] { return measure_and_report(o, target, wanted, folders, interrupt, session); });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <catalogue/descriptions.h>
 #include <cli/validate.h>
 #include <input/samples_file.h>
+#include <options/run_session.h>
 #include <plugin/command.h>
 #include <plugin/plugin.h>
 #include <report/validate_output.h>
@@ -228,7 +229,10 @@ class ValidateJob {
     progress_.show(static_cast<double>(results_.size()) / static_cast<double>(cases_.size()),
                    fmt::format("{} of {} cases", results_.size(), cases_.size()));
   }
+  void skip(std::size_t) {}
+  bool needs_results() const { return false; }
   template <class Archive> void archive(Archive& a) { a(has_begun_, results_); }
+  template <class Archive> void archive_stage(Archive&) {}
 
   // Prints the lines that were not printed yet.
   void print_lines() {
@@ -267,9 +271,9 @@ class ValidateJob {
 };
 
 CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
-                       const std::atomic<bool>* cancel, mc::Checkpoint* checkpoint) {
+                       const std::atomic<bool>* cancel, const RunSession& session) {
   ValidateJob job(cases, o, alpha, cancel);
-  const bool is_done = mc::run_job(job, {o.threads, cancel, checkpoint});
+  const bool is_done = mc::run_job(job, {o.threads, cancel, session.checkpoint(), session.executor(), "validate"});
   job.print_lines();
   if (!is_done) print_how_to_resume(o.checkpoint);
   return job.checked();
@@ -279,7 +283,7 @@ CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateComm
 mc::RunIdentity identity_of(ValidateCommandOptions o, const std::vector<const Case*>& cases) {
   mc::RunIdentity identity =
       run_identity(validate_rows(o), {"NAME", "--all", "--list", "--verbose", "--threads", "--resume", "--every",
-                                      "--report", "--timeout", "--memory"});
+                                      "--report", "--timeout", "--memory", "--output"});
   o.seed = 0;
   std::uint64_t hash = cases.size();
   for (const Case* c : cases) hash = mc::hash(hash, seed_of(*c, o));
@@ -310,6 +314,39 @@ void print_summary(const ValidationRun& run, std::size_t asked, bool verbose) {
   if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
 }
 
+// Files of the results, checked before the work.
+struct ResultFiles {
+  ResultFile json, junit;
+  std::string page;
+
+  explicit ResultFiles(const ValidateCommandOptions& o)
+      : json(o.json), junit(o.junit),
+        page(o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string()) {}
+};
+
+// Prints and writes the reports. Returns the exit code.
+int report(const ValidateCommandOptions& o, const std::vector<const Case*>& cases, const CheckedCases& finished,
+           const ResultFiles& files) {
+  std::string errors;
+  for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\n") + u.error;
+  mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
+  const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
+                          finished.cases,
+                          finished.reports,
+                          finished.cases.size() + finished.unchecked.size() < cases.size(),
+                          finished.unchecked};
+  print_summary(run, cases.size(), o.verbose);
+  ResultWriter results;
+  if (files.junit.is_wanted()) files.junit.write(results, run.interrupted, validation_junit(run));
+  if (files.json.is_wanted()) files.json.write(results, run.interrupted, validation_json(run));
+  if (!files.page.empty()) fmt::print("page: {}\n", results.write(files.page, run.interrupted, validation_page(run)));
+  results.finish();
+  mc::require(errors.empty(), "{}", errors);
+  if (run.interrupted) return exit_interrupted;
+  const bool passed = std::all_of(run.reports.begin(), run.reports.end(), [](const auto& r) { return r.passed(); });
+  return passed ? exit_ok : exit_failed;
+}
+
 } // namespace
 
 int run_validate(const ValidateCommandOptions& options) {
@@ -335,31 +372,14 @@ int run_validate(const ValidateCommandOptions& options) {
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
   const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
-  const ResultFile json(o.json), junit(o.junit);
+  const ResultFiles files(o);
   resolve_sample_count(o, alpha, user_input.samples);
-  const std::string page =
-      o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string();
-
-  const std::unique_ptr<mc::Checkpoint> checkpoint = open_checkpoint(o.checkpoint, identity_of(o, cases));
-  const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag(), checkpoint.get());
-  std::string errors;
-  for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\n") + u.error;
-  mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
-  const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
-                          finished.cases,
-                          finished.reports,
-                          finished.cases.size() + finished.unchecked.size() < cases.size(),
-                          finished.unchecked};
-  print_summary(run, cases.size(), o.verbose);
-  ResultWriter results;
-  if (junit.is_wanted()) junit.write(results, run.interrupted, validation_junit(run));
-  if (json.is_wanted()) json.write(results, run.interrupted, validation_json(run));
-  if (!page.empty()) fmt::print("page: {}\n", results.write(page, run.interrupted, validation_page(run)));
-  results.finish();
-  mc::require(errors.empty(), "{}", errors);
-  if (run.interrupted) return exit_interrupted;
-  const bool passed = std::all_of(run.reports.begin(), run.reports.end(), [](const auto& r) { return r.passed(); });
-  return passed ? exit_ok : exit_failed;
+  RunSession session(o.checkpoint, identity_of(o, cases), o.output, o.command);
+  return session.run([&] {
+    const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag(), session);
+    session.before_results();
+    return report(o, cases, finished, files);
+  });
 }
 
 Subcommand validate_subcommand() {

@@ -32,6 +32,7 @@ struct ValidateCommandOptions {
   bool unnormalized = false;           ///< the given density is only proportional to the true one
   std::string report;                  ///< folder for index.html; empty: none
   CheckpointFiles checkpoint;
+  std::string output; ///< file of a part
   std::string command;
   std::string worker = "/proc/self/exe"; ///< the carlo that runs foreign code
 };

@@ -1,6 +1,6 @@
 #include <converge/integral_target.h>
-#include <process/cpu_time.h>
 
+#include <mc/core/cpu_time.h>
 #include <mc/core/error.h>
 #include <mc/random/hash.h>
 #include <mc/run/job.h>
@@ -27,10 +27,10 @@ template <class Estimator> struct ReplicateJob {
 
   std::size_t next_stage() { return std::exchange(has_begun, true) ? 0 : task.count; }
   std::optional<Result> compute(std::size_t i) const {
-    const double start = thread_cpu_seconds();
+    const double start = mc::thread_cpu_seconds();
     double elsewhere = 0;
     const MethodEstimate s = estimate(mc::hash(task.seed, task.n, task.first + i), elsewhere);
-    return Result{s.value, s.calls, thread_cpu_seconds() - start + elsewhere};
+    return Result{s.value, s.calls, mc::thread_cpu_seconds() - start + elsewhere};
   }
   void absorb(std::size_t, const Result& r) {
     replicates.values.push_back(r.value);
@@ -38,15 +38,22 @@ template <class Estimator> struct ReplicateJob {
     replicates.seconds.push_back(r.seconds);
   }
   template <class Archive> void archive(Archive& a) { a(has_begun, replicates); }
+  template <class Archive> void archive_stage(Archive&) {}
 };
 
 template <class Estimator> Replicates replicates(const ReplicateTask& task, const Estimator& estimate) {
   ReplicateJob<Estimator> job{task, estimate};
-  mc::run_job(job, {task.threads, task.cancel, task.checkpoint});
+  mc::run_job(job, {task.threads, task.cancel, task.checkpoint, task.executor, task.name});
   return std::move(job.replicates);
 }
 
 } // namespace
+
+void append(Replicates& all, const Replicates& more) {
+  all.values.insert(all.values.end(), more.values.begin(), more.values.end());
+  all.calls.insert(all.calls.end(), more.calls.begin(), more.calls.end());
+  all.seconds.insert(all.seconds.end(), more.seconds.begin(), more.seconds.end());
+}
 
 void refuse_constant(const std::string& expression, const ExpressionContext& context) {
   std::vector<std::string> texts = {expression};

@@ -5,7 +5,7 @@
 #include <integrands/unit_cube_integral.h>
 #include <sampling/sampling_methods.h>
 
-#include <mc/run/checkpoint.h>
+#include <mc/run/executor.h>
 
 #include <atomic>
 #include <cstdint>
@@ -21,6 +21,9 @@ struct Replicates {
   template <class Archive> void archive(Archive& a) { a(values, calls, seconds); }
 };
 
+/// Appends replicates.
+void append(Replicates& all, const Replicates& more);
+
 /// Replicates first, first + 1, ... of a method with about n evaluations each.
 struct ReplicateTask {
   const SamplingMethod* method = nullptr;
@@ -28,6 +31,8 @@ struct ReplicateTask {
   int threads = 0;                           ///< 0: all threads of the machine
   const std::atomic<bool>* cancel = nullptr; ///< when it becomes true, the returned replicates are invalid
   mc::Checkpoint* checkpoint = nullptr;      ///< saves finished replicates, and goes on from them
+  mc::Executor executor = {};                ///< who computes them in this process; empty: threads
+  std::string name = "replicates";           ///< tells the tasks of a program apart
 };
 
 /// An integral and the function that runs its replicates: in this process, or in a separate one for a plugin's
@@ -35,7 +40,8 @@ struct ReplicateTask {
 struct IntegralTarget {
   UnitCubeIntegral integral;
   std::function<Replicates(const ReplicateTask& task)> run;
-  bool has_batch = false; ///< the integrand also accepts many points at once
+  bool has_batch = false;  ///< the integrand also accepts many points at once
+  bool is_foreign = false; ///< other processes evaluate the integrand
 };
 
 /// A target that runs in this process.

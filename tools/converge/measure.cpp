@@ -4,6 +4,7 @@
 #include <mc/core/types.h>
 #include <mc/estimate/diagnostics/tail.h>
 #include <mc/random/hash.h>
+#include <mc/run/part_run.h>
 #include <mc/stats/t_test.h>
 
 #include <fmt/format.h>
@@ -74,12 +75,6 @@ double replicates_needed(const std::vector<double>& values, double truth, double
   if (error_of_mean(values) == 0) return double(most_replicates);
   const double own = mc::error_kurtosis(values, std::isfinite(truth) ? truth : mean_of(values));
   return (std::max(own, kurtosis) - 1) / (4 * 0.01);
-}
-
-void append(Replicates& all, const Replicates& more) {
-  all.values.insert(all.values.end(), more.values.begin(), more.values.end());
-  all.calls.insert(all.calls.end(), more.calls.begin(), more.calls.end());
-  all.seconds.insert(all.seconds.end(), more.seconds.begin(), more.seconds.end());
 }
 
 // `before`: the sets of replicates at smaller N.
@@ -351,12 +346,14 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
   ReplicateLog own_log(nullptr);
   if (!o.log) o.log = &own_log;
   const double start = o.log->elapsed();
+  if (o.parts) o.log->use(o.parts->repeated);
   const IntegrandProbe probe = probe_integrand(target, o);
   m.magnitude = probe.magnitude;
   const double tail_index = probe.fit_shape > 0 ? 1 / probe.fit_shape : HUGE_VAL;
   if (probe.tail_shape > 0.5) m.heavy_tail = 1 / probe.tail_shape;
   if (m.magnitude == 0) refuse_underflow(target.integral);
   const bool known = std::isfinite(target.integral.truth);
+  mc::IndependentPieces pieces;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const double gone = o.log->elapsed() - start;
     const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(methods.size() - i) : 0;
@@ -366,18 +363,23 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
                           static_cast<double>(methods.size());
       if (o.progress) o.progress(done, fmt::format("{} {} N = {}", target.integral.name, methods[i].name, n));
     };
-    try {
-      ConvergenceCurve curve = run_curve(target, methods[i], share, o, progress);
-      m.interrupted = curve.interrupted;
-      if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
-    } catch (const mc::Error& e) {
-      m.failures.push_back({&methods[i], e.what()});
-    }
+    if (o.parts) o.log->use(o.parts->alone(o.first_piece + i));
+    pieces.attempt([&] {
+      try {
+        ConvergenceCurve curve = run_curve(target, methods[i], share, o, progress);
+        m.interrupted = curve.interrupted;
+        if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
+      } catch (const mc::Error& e) {
+        m.failures.push_back({&methods[i], e.what()});
+      }
+    });
     if (m.interrupted) break;
     mc::require(known || m.curves.empty() || !all_zero(m.curves),
                 "{}: the integrand was 0 at every point; choose bounds around the region where it is not",
                 target.integral.name);
   }
+  pieces.end();
+  if (o.parts) o.log->use(o.parts->shared);
   if (m.curves.empty() && !m.failures.empty()) throw mc::Error(m.failures.front().reason);
   m.truth = target.integral.truth;
   // After an interrupt the existing replicates may not suffice for a truth. Then no error is reported, and the

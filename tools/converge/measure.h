@@ -12,6 +12,13 @@
 
 namespace carlo {
 
+/// Who computes which piece of a measurement where several parts share it.
+struct PartExecutors {
+  mc::Executor repeated;                                  ///< cheap pieces, which every part computes
+  std::function<mc::Executor(std::uint64_t piece)> alone; ///< pieces that one part computes alone
+  mc::Executor shared;                                    ///< pieces of which each part computes a share
+};
+
 struct MeasureOptions {
   std::uint64_t max_n = 1 << 18;
   int replicates = 0;    ///< replicates behind each RMS error; 0: 64 to 512, enough for a relative error of 10 %
@@ -21,7 +28,9 @@ struct MeasureOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
-  ReplicateLog* log = nullptr; ///< replicates and clock of the run; null: a log of this measurement
+  ReplicateLog* log = nullptr;          ///< replicates and clock of the run; null: a log of this measurement
+  const PartExecutors* parts = nullptr; ///< null: the executor of the log computes everything
+  std::uint64_t first_piece = 0;        ///< number of the first curve among those of all measurements
   /// Called after each N with the finished share of the work and the current method and N.
   std::function<void(double done, const std::string& where)> progress = {};
 };

@@ -3,6 +3,8 @@
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
 #include <mc/random/hash.h>
+#include <mc/run/job.h>
+#include <mc/run/part_run.h>
 #include <mc/stats/t_test.h>
 #include <render/film/accumulate.h>
 #include <render/integrator/direction_mixture.h>
@@ -248,7 +250,10 @@ class PictureSession {
   }
 
   // Including the time of the run behind a checkpoint.
-  double elapsed() const { return earlier_ + std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double elapsed() const {
+    const double seconds = earlier_ + std::chrono::duration<double>(Clock::now() - start_).count();
+    return options_.seconds > 0 ? mc::shared_value(seconds, options_.executor) : seconds;
+  }
   bool is_within_level() const { return !wanted_.empty(); }
   // Twice the samples take twice as long; the first level is always measured.
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
@@ -297,11 +302,14 @@ class PictureSession {
   // Renders the methods in turn until each has the wanted number of pictures. Returns false when cancelled.
   bool render_missing() {
     const int most = *std::max_element(wanted_.begin(), wanted_.end());
+    mc::IndependentPieces pieces; // a part renders its share of each
     for (int r = 0; r < most; ++r)
       for (std::size_t i = 0; i < methods_.size(); ++i) {
         if (r >= wanted_[i] || std::size_t(r) < level_[i].images.size()) continue;
         const std::uint64_t seed = mc::hash(options_.seed, i, std::uint64_t(spp_), std::uint64_t(r));
-        render::RenderResult result = render_picture(methods_[i], spp_, seed);
+        const std::string name = fmt::format("{} {} {}", methods_[i].name(), spp_, r);
+        render::RenderResult result;
+        if (!pieces.attempt([&] { result = render_picture(methods_[i], spp_, seed, name); })) continue;
         if (result.partial) return false;
         Replicates& replicates = level_[i].replicates;
         replicates.calls.push_back(result.spp);
@@ -309,6 +317,7 @@ class PictureSession {
         level_[i].images.push_back(std::move(result.image));
         show(0.7 * (r + 1) / most, fmt::format("{} at {} spp", methods_[i].name(), spp_));
       }
+    pieces.end();
     return true;
   }
 
@@ -331,7 +340,8 @@ class PictureSession {
     show(0.8, fmt::format("the reference, {:.0f} spp", reference_.spp + spp));
     const RenderMethod best{.max_depth = file_.defaults.max_depth, .allocation = SampleAllocation::adaptive};
     const std::uint64_t seed = mc::hash(options_.seed, 77, references_ + 1);
-    render::RenderResult r = render_picture(best, static_cast<int>(std::min(spp, 1e8)), seed);
+    render::RenderResult r =
+        render_picture(best, static_cast<int>(std::min(spp, 1e8)), seed, fmt::format("reference {}", references_));
     if (r.partial) return false;
     ++references_;
     mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
@@ -343,8 +353,11 @@ class PictureSession {
     return true;
   }
 
-  render::RenderResult render_picture(const RenderMethod& method, int spp, std::uint64_t seed) const {
+  render::RenderResult render_picture(const RenderMethod& method, int spp, std::uint64_t seed,
+                                      const std::string& name) const {
     render::RenderOptions o;
+    o.name = name;
+    o.executor = options_.executor;
     o.width = options_.width;
     o.height = options_.height;
     o.spp = spp;

@@ -51,6 +51,7 @@ struct PictureOptions {
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
   mc::Checkpoint* checkpoint = nullptr; ///< saves and restores pictures and errors
+  mc::Executor executor = {};           ///< who renders; empty: threads
   std::function<void(double done, const std::string& where)> progress = {};
 };
 

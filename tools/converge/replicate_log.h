@@ -15,14 +15,18 @@ namespace carlo {
 class ReplicateLog {
  public:
   /// A null checkpoint has no effect.
-  explicit ReplicateLog(mc::Checkpoint* checkpoint);
+  ///   executor : who computes the replicates; empty: threads.
+  explicit ReplicateLog(mc::Checkpoint* checkpoint, mc::Executor executor = {});
+
+  /// Changes who computes the replicates of later tasks.
+  void use(mc::Executor executor) { executor_ = std::move(executor); }
 
   /// The replicates of a task, from the log or computed. Throws the errors of the target, also from the log.
   Replicates run(const IntegralTarget& target, ReplicateTask task);
 
-  /// Seconds since the begin of the first run, without the time between two runs. While results are from the log, it is
-  /// their time, so that decisions by time are repeated.
-  double elapsed() const;
+  /// Seconds from the begin of the first run to the end of the last task, without the time between two runs. While
+  /// results are from the log, it is their time, so that decisions by time are repeated; on all ranks it is equal.
+  double elapsed() const { return earlier_; }
 
   /// Saves the log.
   void save();
@@ -37,10 +41,13 @@ class ReplicateLog {
   };
   using Clock = std::chrono::steady_clock;
 
+  Replicates compute(const IntegralTarget& target, ReplicateTask task, const std::string& name) const;
+
   mc::Checkpoint* checkpoint_;
+  mc::Executor executor_;
   std::deque<Entry> entries_;
   std::size_t next_ = 0; ///< first entry that was not asked for yet
-  double earlier_ = 0;   ///< seconds up to `start_`
+  double earlier_ = 0;   ///< seconds at the end of the last task, which was at `start_`
   Clock::time_point start_ = Clock::now();
   mc::Checkpoint::Section section_;
 };

@@ -12,7 +12,7 @@ namespace {
 // "-o" and "--output" of "-o,--output"; nothing of a positional argument.
 std::vector<std::string> names_of(const Option& o) {
   std::vector<std::string> names;
-  if (!o.names.starts_with('-')) return names;
+  if (!o.names.starts_with('-') || o.hidden) return names;
   for (std::size_t begin = 0; begin < o.names.size();) {
     const std::size_t comma = std::min(o.names.find(',', begin), o.names.size());
     names.push_back(o.names.substr(begin, comma - begin));

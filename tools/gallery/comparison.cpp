@@ -1,5 +1,7 @@
 #include <gallery/comparison.h>
 
+#include <mc/run/part_run.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,14 +27,19 @@ mc::Estimate mean_luminance(const render::Image& image, std::uint32_t estimates)
 
 std::vector<StrategyResult> each_strategy(const render::Scene& scene, render::RenderOptions settings) {
   std::vector<StrategyResult> all;
+  const std::string name = settings.name;
+  mc::IndependentPieces pieces; // a part renders its share of each
   for (const render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
-    const render::RenderResult r = render::render(scene, settings);
+    settings.name = fmt::format("{} {}", name, strategy.name);
+    render::RenderResult r;
+    if (!pieces.attempt([&] { r = render::render(scene, settings); })) continue;
     if (r.partial) break;
     all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.spp, r.relative_error,
                    r.cpu_seconds * r.relative_error * r.relative_error, r.outlier_dominated,
                    mean_luminance(r.image, r.estimates), misses_light(scene, strategy, settings.max_depth)});
   }
+  pieces.end();
   return all;
 }
 

@@ -2,6 +2,7 @@
 #include <options/checkpoint_options.h>
 #include <options/files.h>
 #include <terminal/message.h>
+#include <terminal/ranks.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -33,8 +34,18 @@ std::string text_of(const Option& o) {
 
 } // namespace
 
-std::vector<Option> checkpoint_rows(CheckpointFiles& files) {
-  return {state_file({"--checkpoint", "FILE", &files.checkpoint,
+std::vector<Option> checkpoint_rows(CheckpointFiles& files, const std::vector<std::string>& clock) {
+  Option part{
+      "--part", "K/N", &files.part,
+      "Compute share K of N, such as 3/100, and write it to the file of -o, such as part3.ckpt. carlo merge puts "
+      "all parts together."};
+  for (const std::string& option : clock)
+    part.excludes.push_back({option, "the clock would decide differently in every part"});
+  Option merged{"--merged-part", "FILE", &files.merged, "Part of the run, as carlo merge passes it on."};
+  merged.hidden = true;
+  return {part,
+          merged,
+          state_file({"--checkpoint", "FILE", &files.checkpoint,
                       "Save the state of the run to this file, from time to time and at its end, so that --resume can "
                       "go on from it. Default: the file of --resume."}),
           {"--every", "TIME", &files.every, "Time between two checkpoints: 90s, 5min, 1h; 0 is as often as possible."}};
@@ -65,7 +76,8 @@ mc::RunIdentity run_identity(const std::vector<Option>& options, const std::set<
     const std::string name = o.names.substr(o.names.find(',') + 1);
     const bool is_output = o.use != FileUse::none && o.use != FileUse::input;
     const std::string text = text_of(o);
-    if (is_output || text.empty() || ignored.contains(name)) continue;
+    const bool is_share = name == "--part" || name == "--merged-part";
+    if (is_output || is_share || text.empty() || ignored.contains(name)) continue;
     const std::string hash = o.use == FileUse::input ? hash_of_files({text}) : "";
     if (hash.empty()) identity.emplace_back(name, text);
     else identity.emplace_back("the content of the file of " + name, hash);
@@ -75,11 +87,11 @@ mc::RunIdentity run_identity(const std::vector<Option>& options, const std::set<
 
 std::unique_ptr<mc::Checkpoint> open_checkpoint(const CheckpointFiles& files, mc::RunIdentity identity) {
   mc::CheckpointOptions options{
-      .file = file_to_write(files),
+      .file = rank() == 0 ? file_to_write(files) : "", // the others read the same file
       .every = parse_duration("--every", files.every),
       .resume = files.resume,
       .warn = [](const std::string& text) { warn("{}; the checkpoint before it stays, and the run goes on", text); }};
-  if (options.file.empty()) return nullptr;
+  if (options.file.empty() && options.resume.empty()) return nullptr;
   const auto open = [&] { return std::make_unique<mc::Checkpoint>(std::move(options), std::move(identity)); };
   return files.resume.empty() ? open() : mc::with_context("--resume", open);
 }

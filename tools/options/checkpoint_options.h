@@ -14,13 +14,19 @@
 namespace carlo {
 
 struct CheckpointFiles {
-  std::string checkpoint = {}; ///< file to write; empty: `resume`
-  std::string every = "60s";   ///< time between two checkpoints
-  std::string resume = {};     ///< file to go on from; empty: a new run
+  std::string checkpoint = {};          ///< file to write; empty: `resume`
+  std::string every = "60s";            ///< time between two checkpoints
+  std::string resume = {};              ///< file to go on from; empty: a new run
+  std::string part = {};                ///< "3/100": this share of the units; empty: all of them
+  std::vector<std::string> merged = {}; ///< files of all parts, for carlo merge
+
+  /// Whether the run computes a part, and has no other results.
+  bool is_part() const { return !part.empty(); }
 };
 
-/// The rows of --checkpoint and --every.
-std::vector<Option> checkpoint_rows(CheckpointFiles& files);
+/// The rows of --checkpoint, --every and --part.
+///   clock : options by which a clock decides on the work; a part cannot have them.
+std::vector<Option> checkpoint_rows(CheckpointFiles& files, const std::vector<std::string>& clock = {});
 /// The row of --resume FILE.
 Option resume_row(CheckpointFiles& files);
 

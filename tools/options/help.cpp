@@ -70,7 +70,7 @@ std::vector<HelpSection> option_sections(const std::vector<Option>& options) {
   for (const std::string& title : titles) {
     HelpSection group{title, {}};
     for (const Option& o : options)
-      if (!is_positional(o) && o.group == title) group.entries.push_back(entry(o));
+      if (!is_positional(o) && !o.hidden && o.group == title) group.entries.push_back(entry(o));
     if (title == titles.front()) group.entries.push_back({help_option, help_meaning});
     sections.push_back(std::move(group));
   }

@@ -199,6 +199,7 @@ PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureReques
   p.threads = run.threads;
   p.cancel = run.cancel;
   p.checkpoint = run.checkpoint;
+  p.executor = run.executor;
   ProgressLine progress;
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
   return mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });

@@ -63,6 +63,7 @@ struct SceneMeasureRequest {
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
   mc::Checkpoint* checkpoint = nullptr;
+  mc::Executor executor = {};
 };
 
 /// Everything that a measurement depends on, for its checkpoints: the options, and the files of a scene.

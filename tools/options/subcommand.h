@@ -54,6 +54,7 @@ struct Option {
   std::vector<Exclusion> excludes = {};
   std::string group = {}; ///< heading in --help, see in_groups
   FileUse use = FileUse::none;
+  bool hidden = false;                 ///< not for users: --help does not name it
   std::vector<std::string> files = {}; ///< fixed names of files that are written into an output folder
 };
 

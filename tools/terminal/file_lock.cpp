@@ -1,4 +1,5 @@
 #include <terminal/file_lock.h>
+#include <terminal/ranks.h>
 
 #include <mc/core/error.h>
 
@@ -13,6 +14,7 @@
 namespace carlo {
 
 FileLock::FileLock(const std::string& path) {
+  if (rank() != 0) return; // rank 0 locks it for all
   // Another process may replace the file between open() and flock(): then the lock is of the old file.
   for (bool is_current = false; !is_current;) {
     if (descriptor_ >= 0) close(descriptor_);

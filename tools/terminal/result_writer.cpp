@@ -1,5 +1,6 @@
 #include <process/temporary_folder.h>
 #include <terminal/message.h>
+#include <terminal/ranks.h>
 #include <terminal/result_writer.h>
 
 #include <mc/core/error.h>
@@ -62,6 +63,7 @@ fs::path result_folder(const fs::path& folder, const std::string& file, bool is_
 
 std::string ResultWriter::write(const std::string& path, bool is_partial,
                                 const std::function<void(const std::string&)>& write) {
+  if (rank() != 0) return path;
   std::error_code error;
   const fs::file_type old = fs::status(path, error).type();
   const bool is_beside = is_partial && old == fs::file_type::regular;
@@ -82,6 +84,7 @@ std::string ResultWriter::write(const std::string& path, bool is_partial, std::s
 }
 
 void ResultWriter::attempt(const std::function<void()>& draw) {
+  if (rank() != 0) return;
   if (const auto failure = failure_of(draw)) failures_.push_back(*failure);
 }
 

@@ -16,7 +16,7 @@ std::string partial_path(const std::string& path);
 /// subfolder "partial", which is made.
 std::filesystem::path result_folder(const std::filesystem::path& folder, const std::string& file, bool is_partial);
 
-/// The writes of one run.
+/// The writes of one run, by rank 0 alone.
 ///   partial : a partial result replaces no file. Where the file exists, the result goes to partial_path(), which it
 ///             replaces; a line on standard error says so.
 ///   failure : a result that cannot be written goes to a new folder under $TMPDIR, /tmp, /var/tmp or the current

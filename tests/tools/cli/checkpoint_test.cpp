@@ -1,12 +1,10 @@
 // Each command is killed by kill -9 at several moments and goes on with the same bits as without an interruption.
 
+#include <tools/content_of.h>
 #include <tools/interrupt_carlo.h>
 #include <tools/kill_carlo.h>
 
-#include <render/io/image/image_io.h>
-
 #include <mc/core/file.h>
-#include <mc/core/text.h>
 
 #include <support/files.h>
 
@@ -18,36 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using support::run_carlo;
+using support::content_of, support::run_carlo;
 using testing::AllOf;
 using testing::HasSubstr;
-
-// A CSV table without columns of CPU seconds.
-std::string without_seconds(const std::string& csv) {
-  std::string text;
-  std::vector<bool> kept;
-  for (const std::string_view line : mc::split(csv, '\n')) {
-    const std::vector<std::string_view> cells = mc::split(line, ',');
-    if (kept.empty())
-      for (const std::string_view name : cells) kept.push_back(name.find("seconds") == name.npos);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      if (i < kept.size() && kept[i]) text += std::string(cells[i]) + ",";
-    text += "\n";
-  }
-  return text;
-}
-
-// What must not depend on interruptions: pictures without metadata, numbers without times.
-std::string content_of(const std::string& file) {
-  if (file.ends_with(".csv")) return without_seconds(mc::read_file(file));
-  if (file.ends_with(".json"))
-    return std::regex_replace(mc::read_file(file), std::regex("\"(seconds|ns_per_sample|command)\": [^\n]*"), "");
-  const render::Image image = render::read_image(file);
-  std::string text = fmt::format("{} {}\n", image.width, image.height);
-  for (const auto* pixels : {&image.pixels, &image.variance})
-    for (const render::Spectrum& p : *pixels) text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
-  return text;
-}
 
 /// A command with OUT for its output, and the files to compare.
 struct KilledLine {
@@ -65,6 +36,9 @@ const std::vector<KilledLine> killed_commands = {
     {"stratified", "render cbox --size 16x16 --spp 30 --sampler stratified --strategy nee -o OUT.exr", {".exr"}},
     {"gallery", "gallery cbox smallpt --scale 0.03 --spp 8 -o OUT", {"/cbox.exr", "/smallpt.exr", "/sheet.png"}},
     {"validate", "validate Linear Tent CosineHemisphere --samples 5000 --json OUT.json --report OUT", {".json"}},
+    {"integrate",
+     "integrate \"exp(-x*x-y)\" -d \"x=0:1,y=0:2\" --rel-error 1e-9 --max-calls 2e6 --json OUT.json",
+     {".json"}},
     {"converge", "converge pi x2_uniform --max-n 512 -o OUT", {"/pi.csv", "/x2_uniform.csv"}},
     {"converge_scene",
      "converge " + cbox_file + " --strategies mis --samplers sobol,independent --max-spp 16 --size 6x6 -o OUT",

@@ -41,7 +41,7 @@ TEST(Completion, EveryShellKnowsEveryOption) {
   for (const Subcommand& c : all) {
     if (c.about.hidden) continue;
     for (const Option& o : c.options) {
-      if (!o.names.starts_with('-')) continue;
+      if (!o.names.starts_with('-') || o.hidden) continue;
       const std::string name = o.names.substr(o.names.find(',') + 1);
       EXPECT_THAT(bash, HasSubstr(name));
       EXPECT_THAT(zsh, HasSubstr(name + "["));
