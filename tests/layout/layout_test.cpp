@@ -132,7 +132,6 @@ TEST(Layout, TopLevelHasOnlyKnownEntries) {
                                        "librender",
                                        "tools",
                                        "python",
-                                       "examples",
                                        "tests",
                                        "bench",
                                        "examples",
