@@ -26,8 +26,8 @@ std::vector<Option> rows(MergeCommandOptions& o) {
   return in_groups({
       {common_options,
        {
-           {"PART", "FILE", &o.parts,
-            "Files of all parts; where the parts ran with --resume, also the file of that option.", true},
+           state_file({"PART", "FILE", &o.parts,
+                       "Files of all parts; where the parts ran with --resume, also the file of that option.", true}),
            {"-o,--output", "PATH", &o.output,
             "Picture or folder, as -o of the command of the parts. Default: that command's."},
        }},

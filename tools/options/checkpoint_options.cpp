@@ -41,7 +41,7 @@ std::vector<Option> checkpoint_rows(CheckpointFiles& files, const std::vector<st
       "all parts together."};
   for (const std::string& option : clock)
     part.excludes.push_back({option, "the clock would decide differently in every part"});
-  Option merged{"--merged-part", "FILE", &files.merged, "Part of the run, as carlo merge passes it on."};
+  Option merged = state_file({"--merged-part", "FILE", &files.merged, "Part of the run, as carlo merge passes it on."});
   merged.hidden = true;
   return {part,
           merged,

@@ -1,6 +1,7 @@
 // A job whose units sleep, on the ranks of MPI: what the messages of many ranks cost, on a machine of few processors.
 //   mpirun --oversubscribe -n RANKS bench_mc_run_sleeping_ranks UNITS SECONDS BYTES STAGES
-// prints: ranks, units of a stage, seconds of a unit, bytes of a result, stages, wall-clock seconds, CPU seconds of rank 0.
+// prints: ranks, units of a stage, seconds of a unit, bytes of a result, stages, wall-clock seconds, CPU seconds of
+// rank 0.
 
 #include <mc/core/cpu_time.h>
 #include <mc/run/job.h>

@@ -85,7 +85,7 @@ TEST_F(CarloRanks, DeadRank_IsNamedAndTheCheckpointGoesOn) {
   const std::string line = "render cbox --size 64x64 --spp 1024 -o " + path("a.exr") + " --threads 1",
                     file = path("a.ckpt");
   const support::ProcessResult r = support::run(
-      fmt::format("(mpirun --oversubscribe --allow-run-as-root --mca odls_base_sigkill_timeout 30 -n 3 '" CARLO_PATH
+      fmt::format("(mpirun --oversubscribe --allow-run-as-root --mca odls_base_sigkill_timeout 5 -n 3 '" CARLO_PATH
                   "' {} --every 10h --checkpoint {} & run=$!; sleep 1; "
                   "for p in $(pgrep -P $run); do tr '\\0' '\\n' </proc/$p/environ | grep -q "
                   "'^OMPI_COMM_WORLD_RANK=2$' && kill -9 $p; "
