@@ -13,8 +13,7 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
        "domain."},
       {"--scalar", "TYPE", &o.scalar, "Check float or double alone. Default: both."},
       {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
-      state_file(
-          {"-o,--output", "FILE", &o.output, "File of --part, such as part3.ckpt; without --part it is not used."}),
+      state_file({"-o,--output", "FILE", &o.output, "File of --part, such as part3.ckpt."}),
       output_file({"--junit", "FILE", &o.junit, "Write the results to this file as JUnit XML; - is standard output."}),
       resume_row(o.checkpoint),
   };
