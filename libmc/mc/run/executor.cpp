@@ -56,6 +56,7 @@ bool UnitQueue::is_over() {
 
 void UnitQueue::deliver(std::size_t unit, AnyResult result) {
   const std::lock_guard lock(mutex_);
+  if (has_failed_) return;
   if (result) {
     results_.emplace(unit, std::move(result));
     absorb_results();
@@ -64,9 +65,16 @@ void UnitQueue::deliver(std::size_t unit, AnyResult result) {
 }
 
 void UnitQueue::absorb_results() {
-  for (auto first = results_.begin(); first != results_.end() && first->first == absorbed_;
-       first = results_.erase(first), ++absorbed_)
-    job_.absorb(absorbed_, std::move(first->second));
+  try {
+    for (auto first = results_.begin(); first != results_.end() && first->first == absorbed_;
+         first = results_.erase(first), ++absorbed_)
+      job_.absorb(absorbed_, std::move(first->second));
+  } catch (...) {
+    has_failed_ = true;
+    next_ = units_;
+    absorbed_more_.notify_all();
+    throw;
+  }
   if (options_.checkpoint && options_.checkpoint->is_due()) options_.checkpoint->save();
 }
 

@@ -92,7 +92,9 @@ class UnitQueue {
   std::optional<std::size_t> try_take();
   /// Whether no further unit will be given out.
   bool is_over();
-  /// Result of a unit; null where its worker gave up.
+  /// Whether the job has failed to absorb a result: its state is not defined.
+  bool has_failed() const { return has_failed_; }
+  /// Result of a unit; null where its worker gave up. Ignored once the job has failed to absorb one.
   void deliver(std::size_t unit, AnyResult result);
   /// Absorbs results behind a unit that is missing; the job can only end.
   void absorb_all();
@@ -119,7 +121,7 @@ class UnitQueue {
       next_ = 0,                             ///< the first unit that is not started
       workers_ = 1;                          ///< of this stage
   std::map<std::size_t, AnyResult> results_; ///< of units behind one that is still computed
-  std::atomic<bool> gave_up_ = false;
+  std::atomic<bool> gave_up_ = false, has_failed_ = false;
 };
 
 /// Runs all stages of a job with its checkpoint. run_stage(queue) opens the queue to its workers, and returns when

@@ -263,7 +263,7 @@ class MpiRanks::First {
     }
     if (!failure) failure = failure_of_messages;
     if (!failure) return;
-    if (options_.checkpoint) options_.checkpoint->save_and_wait();
+    if (options_.checkpoint && !queue.has_failed()) options_.checkpoint->save_and_wait();
     std::rethrow_exception(failure);
   }
 

@@ -76,4 +76,28 @@ TEST(UnitQueue, WorkerThatGivesUp_CancelsTheRun) {
   EXPECT_FALSE(queue.take().has_value());
 }
 
+// Another thread may deliver a result before the one that failed has closed the queue.
+TEST(UnitQueue, FailureToAbsorb_EndsTheJob) {
+  SumJob job;
+  mc::AnyJob any = mc::detail::any_job(job, "sum");
+  any.absorb = [&](std::size_t unit, const mc::AnyResult& result) {
+    EXPECT_TRUE(result);
+    if (unit == 1) throw mc::Error("full");
+    ++job.absorbed;
+  };
+  const mc::RunOptions options;
+  mc::detail::UnitQueue queue(any, options);
+  job.sum = 0.5; // more than one unit
+  ASSERT_TRUE(queue.begin_stage());
+  queue.open(4);
+  for (std::size_t i = 0; i < 4; ++i) ASSERT_EQ(queue.take(), i);
+  queue.deliver(0, any.compute(0));
+  EXPECT_FALSE(queue.has_failed());
+  EXPECT_THROW(queue.deliver(1, any.compute(1)), mc::Error);
+  EXPECT_TRUE(queue.has_failed());
+  for (const std::size_t late : {2, 3}) queue.deliver(late, any.compute(late));
+  EXPECT_FALSE(queue.take().has_value());
+  EXPECT_EQ(job.absorbed, 1u);
+}
+
 } // namespace
