@@ -40,4 +40,8 @@ mkdir "$work/merging" 2>/dev/null || exit 0 # another part was the last, too
 all=$work/all.ckpt
 # shellcheck disable=SC2086
 "${CARLO:-carlo}" merge $base "$work"/part*.ckpt -o "$output" --checkpoint "$all" || code=$?
-[ ! -e "$all" ] || CARLO_BASE=$all sbatch --export=ALL --array="1-$parts" "$0" "$output" "$@"
+[ -e "$all" ] || exit "$code" # the results are written
+time=$(squeue --noheader --jobs="${SLURM_ARRAY_JOB_ID}_$k" --format=%l)
+CARLO_BASE=$all sbatch --export=ALL --array="1-$parts" --cpus-per-task="$SLURM_CPUS_PER_TASK" --time="$time" \
+  ${SLURM_JOB_PARTITION:+--partition="$SLURM_JOB_PARTITION"} ${SLURM_JOB_ACCOUNT:+--account="$SLURM_JOB_ACCOUNT"} \
+  "$0" "$output" "$@"

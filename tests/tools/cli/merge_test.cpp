@@ -146,7 +146,7 @@ TEST_F(MergeCommand, ScriptsForClusters_HaveTheBitsOfOneRun) {
   std::string base;
   for (const std::string job : {"7", "8"})
     for (const std::string k : {"1", "2", "3"}) {
-      for (const char* name : {"sbatch", "scontrol"})
+      for (const char* name : {"sbatch", "scontrol", "squeue"})
         fs::permissions(write(name, "#!/bin/sh\necho \"$CARLO_BASE\" >base\n"), fs::perms::owner_all);
       const support::ProcessResult r = support::run(
           begin + "PATH=.:$PATH SLURM_ARRAY_JOB_ID=" + job + " SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_ID=" + k +
