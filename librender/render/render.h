@@ -20,6 +20,8 @@ struct Progress {
   double seconds = 0;           ///< Time since the start [s].
   double relative_error = 0;    ///< Error in the scope of the options; see Film. Infinite while unknown.
   double outlier_dominated = 0; ///< Share of outlier-dominated pixels at the last estimate of the error.
+  /// Image of the samples so far. Call it during the progress only; it takes time, and other threads may wait.
+  std::function<Image()> image = {};
 };
 
 /// Largest share of outlier-dominated pixels with which an image may reach a target error.

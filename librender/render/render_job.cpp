@@ -359,7 +359,15 @@ void RenderJob::report_progress() const {
   const double fraction =
       options_.seconds ? elapsed() / *options_.seconds : (mean_ + share * (pass_.mean - mean_)) / pass_.wanted;
   options_.progress({std::min(fraction, 1.0), total_.samples + pass_.stats.samples, total_.rays, elapsed(),
-                     error_.value, outlier_dominated_});
+                     error_.value, outlier_dominated_, [this] { return image_so_far(); }});
+}
+
+// Without the samples of an unfinished pass with splats.
+Image RenderJob::image_so_far() const {
+  Image image = film_.image();
+  if (mean_ == 0) repeat_rows(film_, image);
+  image.estimates = std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
+  return image;
 }
 
 RenderResult RenderJob::result(bool is_done) {

@@ -112,6 +112,7 @@ class RenderJob {
   void count_light_paths();
   void estimate_error();
   void report_progress() const;
+  Image image_so_far() const;
   std::optional<Result> compute_samples(std::size_t unit) const;
   void count(std::size_t unit);
   RowPart row_part(std::size_t unit) const;

@@ -6,12 +6,14 @@
 #include <options/pixels.h>
 #include <options/run_session.h>
 #include <picture/picture.h>
+#include <picture/render_report.h>
 #include <picture/resume.h>
 #include <terminal/columns.h>
 #include <terminal/file_lock.h>
 #include <terminal/interrupt.h>
 #include <terminal/message.h>
 #include <terminal/progress.h>
+#include <terminal/ranks.h>
 #include <terminal/result_writer.h>
 
 #include <render/film/confidence_interval.h>
@@ -334,13 +336,17 @@ int run_render(const RenderCommandOptions& options) {
               "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
               output);
   warn_where_light_is_missed(scene, settings);
+  const render::Crop part = crop_of(settings);
   ProgressLine progress;
-  if (progress.is_visible())
+  std::optional<RenderReport> report;
+  if (!options.report.empty() && rank() == 0)
+    report.emplace(options.report, std::filesystem::path(file).filename().string(), options.command, part);
+  if (progress.is_visible() || report)
     settings.progress = [&](const render::Progress& p) {
-      progress.show(p.fraction, progress_text(p, options.target_error));
+      if (progress.is_visible()) progress.show(p.fraction, progress_text(p, options.target_error));
+      if (report) report->show(p);
     };
 
-  const render::Crop part = crop_of(settings);
   const RenderFingerprint fingerprint =
       render_fingerprint(file, options.dialect, options.variables, read, settings, part);
   std::optional<FileLock> lock; // until the new picture is written
@@ -359,7 +365,9 @@ int run_render(const RenderCommandOptions& options) {
     progress.clear();
     if (result.partial) print_how_to_resume(checkpoint_files(options));
     session.before_results();
-    return write_picture(work, result, settings);
+    const int code = write_picture(work, result, settings);
+    if (report) report->finish(result);
+    return code;
   });
 }
 

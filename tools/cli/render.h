@@ -20,6 +20,7 @@ struct RenderCommandOptions {
   std::optional<double> target_error; ///< mean relative standard error to reach
   std::string error_of;               ///< "picture" or "worst"; empty: picture
   std::string adaptive;               ///< on or off; empty: on with --time and --target-error
+  std::string report;                 ///< folder of a page; empty: none
   std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
   std::string crop;                   ///< "X,Y,W,H"; empty: the whole picture

@@ -89,6 +89,14 @@ OptionGroup image_group(RenderCommandOptions& o) {
                "Brightness of a PNG in stops, or auto. Default: the gallery scene's, else 0."},
               output_file({"--intervals", "FILE", &o.intervals,
                            "Write half the widths of the pixels' 95 % confidence intervals to this image."}),
+              output_folder({"--report",
+                             "FOLDER",
+                             &o.report,
+                             "Keep a page in this folder (index.html) while the render runs: the picture so far, the "
+                             "error against time, and what remains. Not with --compare-strategies.",
+                             false,
+                             {{"--compare-strategies", "--compare-strategies has no page"}}},
+                            {"index.html"}),
               {"--layers", "", &o.layers,
                "Add channels to an EXR: normal N, position P, depth Z, albedo and shape id at the centre of each "
                "pixel."},

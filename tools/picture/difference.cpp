@@ -16,6 +16,10 @@ namespace {
 struct ImageNoise {
   double dof, area;
   explicit ImageNoise(const Image& image) : dof(std::max(2.0, double(image.estimates)) - 1), area(image.noise_area) {}
+  // An exact image has none.
+  double variance(const Image& image, std::size_t i, int c) const {
+    return image.variance.empty() ? 0 : double(image.variance[i][c]) * area;
+  }
 };
 
 /// Sums over a rectangle of pixels, or one pixel, with the variances of these sums.
@@ -68,7 +72,7 @@ class Comparison {
         sums.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
         sums.reference += double(b_.pixels[i][c]);
         // Correlated pixels count as fewer independent variances.
-        const double va = double(a_.variance[i][c]) * noise_a_.area, vb = double(b_.variance[i][c]) * noise_b_.area;
+        const double va = noise_a_.variance(a_, i, c), vb = noise_b_.variance(b_, i, c);
         sums.variance_a += va;
         sums.variance_b += vb;
         sums.all.add(va, noise_a_.dof, noise_a_.area);
@@ -127,6 +131,21 @@ DifferenceTests test_difference(const Image& a, const Image& b, double tolerance
   Comparison comparison(a, b, tolerance);
   comparison.run();
   return comparison.result;
+}
+
+LargestRatio largest_ratio(const Image& a, const Image& b) {
+  double mean = 0;
+  for (const render::Spectrum& x : b.pixels) mean += double(x.abs().mean()) / double(b.pixels.size());
+  LargestRatio worst;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        const double difference = double(a.at(x, y)[c]) - double(b.at(x, y)[c]);
+        const double ratio =
+            difference == 0 ? 0 : std::abs(difference) / std::max(std::abs(double(b.at(x, y)[c])), mean);
+        if (ratio > worst.ratio) worst = {ratio, difference, x, y, c};
+      }
+  return worst;
 }
 
 void require_comparable(const std::string& name_a, const Image& a, const std::string& name_b, const Image& b) {

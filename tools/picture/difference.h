@@ -37,13 +37,23 @@ struct DifferenceTests {
   double family_p() const;
 };
 
-/// Tests whether two pictures with variances differ beyond their noise. Both must pass require_comparable.
+/// Tests whether two pictures differ beyond their noise. Both must pass require_comparable. A picture without variances
+/// counts as exact; at least one must have them.
 ///   pixels    : a pixel takes the mean variance of its 3x3 neighbourhood, since a pixel that missed a rare bright path
 ///               underestimates its own variance. Its degrees of freedom are those of the neighbourhood, but at most
 ///               the sum of the two pixels' own, and at most 3: one rare bright path can dominate a pixel.
 ///   blocks    : detect differences that are small in every pixel.
 ///   tolerance : difference relative to b that counts as agreement.
 DifferenceTests test_difference(const render::Image& a, const render::Image& b, double tolerance);
+
+/// The largest relative difference of a pixel.
+struct LargestRatio {
+  double ratio = 0, difference = 0;
+  int x = 0, y = 0, channel = 0;
+};
+
+/// Largest |a - b| over b, where dark pixels count as the mean of b. Both must pass require_comparable.
+LargestRatio largest_ratio(const render::Image& a, const render::Image& b);
 
 /// Throws Error unless both pictures have one size and finite pixels. The names stand in the message.
 void require_comparable(const std::string& name_a, const render::Image& a, const std::string& name_b,

@@ -1,4 +1,5 @@
 #include <report/packed.h>
+#include <report/page_template.h>
 #include <report/validate_page.h>
 #include <validate_page_parts.h>
 
@@ -16,11 +17,6 @@ mc::CellCount join(const mc::CellCount& a, const mc::CellCount& b) {
     c.hi[d] = std::max(a.hi[d], b.hi[d]);
   }
   return c;
-}
-
-std::string replaced(std::string text, std::string_view mark, std::string_view by) {
-  const std::size_t at = text.find(mark);
-  return at == std::string::npos ? text : text.replace(at, mark.size(), by);
 }
 
 } // namespace
@@ -61,16 +57,10 @@ std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most) {
 }
 
 std::string fill_page_template(std::string_view data) {
-  // "</script>" in a string of the data would end the script element.
-  std::string safe;
-  for (std::size_t i = 0; i < data.size(); ++i) {
-    if (data[i] == '<') safe += "\\u003c";
-    else safe += data[i];
-  }
-  std::string text = replaced(page_html, "@CSS@", page_css);
-  text = replaced(std::move(text), "@MAPS@", page_maps_js);
-  text = replaced(std::move(text), "@JS@", page_js);
-  return replaced(std::move(text), "@DATA@", safe);
+  return filled(page_html, {{"@CSS@", page_css},
+                            {"@MAPS@", std::string(page_unpack_js) + page_maps_js},
+                            {"@JS@", page_js},
+                            {"@DATA@", script_safe(data)}});
 }
 
 } // namespace carlo

@@ -114,24 +114,61 @@ TEST_F(Compare, MetricsAndDifferenceImage) {
   EXPECT_EQ(compare("--metric mean_ratio").output, "1\n");
 }
 
-// The noise of one image gives no verdict on two.
-TEST_F(Compare, NoVerdictWithoutBothVariances) {
-  render::Image bare = noisy(2, 0.9);
-  bare.variance.clear();
+// An image without variances is a reference, such as the mean of many renders.
+TEST_F(Compare, ImageWithoutVariance_CountsAsExact) {
+  render::Image exact(size, size);
+  for (auto& p : exact.pixels) p.setConstant(render::Float(0.5));
   save("a.exr", noisy(1, 0.5));
-  save("b.exr", bare);
+  save("b.exr", exact);
   const support::ProcessResult run = compare("");
   EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.output, HasSubstr("verdict    none: '" + path("b.exr") +
-                                    "' carries no variance; render to .exr with two samples or more in every pixel"));
-  save("a.exr", bare);
-  EXPECT_THAT(compare("").output, HasSubstr("the images carry no variance"));
-  EXPECT_EQ(compare("--tolerance 0.1").exit_code, 2) << "whoever states it waits for a verdict";
-  EXPECT_THAT(compare("--tolerance 0.1").output, HasSubstr("--tolerance: the images carry no variance"));
-  EXPECT_EQ(compare("--alpha 0.05").exit_code, 2);
-  EXPECT_THAT(compare("--alpha 0.05").output, HasSubstr("--alpha: the images carry no variance"));
-  for (const std::string of_verdicts : {"--tolerance 0.1", "--alpha 0.1"})
-    EXPECT_EQ(compare("--metric mse " + of_verdicts).exit_code, 2) << of_verdicts;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("verdict    agree: family-wise"),
+                                HasSubstr("; '" + path("b.exr") + "' has no variance and counts as exact")));
+  for (auto& p : exact.pixels) p *= render::Float(1.02);
+  save("b.exr", exact);
+  EXPECT_EQ(compare("").exit_code, 1);
+  EXPECT_EQ(compare("--tolerance 0.03").exit_code, 0);
+}
+
+TEST_F(Compare, WithoutVariances_TheToleranceDecides) {
+  render::Image a(4, 2), b(4, 2);
+  for (auto& p : b.pixels) p.setConstant(render::Float(0.5));
+  b.at(3, 1) = render::Spectrum::Constant(render::Float(1e-3)); // counts as the mean, .438
+  a.pixels = b.pixels;
+  a.at(1, 0)[1] = render::Float(0.504);
+  for (const std::string ending : {"exr", "pfm"}) {
+    const auto run = [&](const std::string& options) {
+      return run_carlo("compare " + path("a." + ending) + " " + path("b." + ending) + " " + options);
+    };
+    save("a." + ending, a);
+    save("b." + ending, b);
+    EXPECT_EQ(run("").exit_code, 0);
+    EXPECT_THAT(run("").output, HasSubstr("verdict    none: the images carry no variance; give --tolerance"));
+    EXPECT_EQ(run("--tolerance 0.009").exit_code, 0);
+    EXPECT_EQ(run("--tolerance 0.007").exit_code, 1);
+    EXPECT_THAT(
+        run("--tolerance 0.007").output,
+        HasSubstr("verdict    DIFFER: the largest difference is 0.008 of B (dark pixels: of its mean), at (1, 0) "
+                  "green; tolerance 0.007"));
+    EXPECT_EQ(run("--alpha 0.05").exit_code, 2);
+    EXPECT_THAT(run("--alpha 0.05").output, HasSubstr("--alpha: the images carry no variance"));
+    for (const std::string of_verdicts : {"--tolerance 0.1", "--alpha 0.1"})
+      EXPECT_EQ(run("--metric mse " + of_verdicts).exit_code, 2) << of_verdicts;
+  }
+  render::Image dark = b;
+  dark.at(3, 1) = render::Spectrum::Constant(render::Float(2e-3)); // twice as bright, but .0023 of the mean
+  save("a.exr", dark);
+  save("b.exr", b);
+  EXPECT_EQ(compare("--tolerance 0.003").exit_code, 0);
+}
+
+TEST_F(Compare, Report_ShowsBothImagesAndTheVerdict) {
+  save("a.exr", noisy(1, 0.5));
+  save("b.exr", noisy(2, 0.5));
+  ASSERT_EQ(compare("--report " + path("page")).exit_code, 0);
+  const std::string page = mc::read_file(path("page/index.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("\"verdict\":\"agree: family-wise"), HasSubstr("\"name\":\"" + path("b.exr"))));
+  EXPECT_EQ(compare("--report " + path("a.exr")).exit_code, 2);
 }
 
 TEST_F(Compare, InvalidVariance_IsReportedInOneLine) {

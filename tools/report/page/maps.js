@@ -1,27 +1,9 @@
 "use strict";
 // Cells, axes and canvases of the maps.
 
-// The bytes of a zlib stream in base64.
-async function unpack(text) {
-  const source = new ReadableStream({start(controller) {
-    controller.enqueue(Uint8Array.from(atob(text), c => c.charCodeAt(0)));
-    controller.close();
-  }});
-  const reader = source.pipeThrough(new DecompressionStream("deflate")).getReader(), bytes = [];
-  for (let part = await reader.read(); !part.done; part = await reader.read()) for (const byte of part.value) bytes.push(byte);
-  return bytes;
-}
-
-// 32-bit floats: the lowest byte of each, then the second byte of each, and so on.
-function floats(bytes) {
-  const n = bytes.length / 4, ordered = new Uint8Array(bytes.length);
-  bytes.forEach((byte, i) => { ordered[4 * (i % n) + Math.floor(i / n)] = byte; });
-  return new Float32Array(ordered.buffer);
-}
-
 // A complete kd-tree: the axis of each inner node in heap order, the splits, the counts.
 function cellsOfTree(bytes, dimensions) {
-  const n = (bytes.length + 5) / 13, axes = bytes.slice(0, n - 1).map(digit => digit - 48), numbers = floats(bytes.slice(n - 1));
+  const n = (bytes.length + 5) / 13, axes = bytes.subarray(0, n - 1).map(digit => digit - 48), numbers = floats(bytes.subarray(n - 1));
   const cells = [];
   const visit = (node, lo, hi) => {
     if (node >= n) {
