@@ -80,6 +80,9 @@ struct RenderResult {
   int missing_rows = 0;
 };
 
+/// Memory that a render needs beside the scene [bytes]: its film, its image and copies of a checkpoint.
+double memory_needed(const Scene& scene, const RenderOptions& options);
+
 /// Renders a scene. For the same seed the result has the same bits for any number of threads. With `seconds` it depends
 /// on the speed of the machine.
 ///   rounds  : each round doubles the samples of every pixel. After the first round, of two samples per pixel, the
@@ -92,7 +95,8 @@ struct RenderResult {
 ///   adaptive : about the first quarter is an even pilot, which alone determines all later rates; see adaptive_plan().
 ///   throws  : Error for a size, sample count, time or error that is not positive. Error for a crop that is not inside
 ///             the image. Error for options that exclude each other, and for a depth or number of branches out of
-///             range. Error for a strategy that cannot find every light of the scene (finds_all_lights).
+///             range. Error for a strategy that cannot find every light of the scene (finds_all_lights). MemoryError
+///             where the pixels need more memory than is allowed.
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 } // namespace render

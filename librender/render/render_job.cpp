@@ -42,10 +42,6 @@ ImageExtent extent_of(const RenderOptions& options) {
                   c.y <= options.height - c.height,
               "render: a crop of {}x{} pixels at ({}, {}) is not inside a picture of {}x{}", c.width, c.height, c.x,
               c.y, options.width, options.height);
-  constexpr double most = 1 << 28; // the sums of a film then take about 100 GB
-  mc::require(double(c.width) * double(c.height) <= most,
-              "render: {}x{} pixels are more than {:.0f}; ask for a smaller picture or a part of it", c.width, c.height,
-              most);
   return {options.width, options.height, c};
 }
 
@@ -63,12 +59,10 @@ double bytes_per_pixel(const RenderOptions& options, bool has_light_paths) {
   return copies * film + 2 * sizeof(std::uint32_t) + 2 * sizeof(Spectrum);
 }
 
-// Throws Error where the pixels need more memory than is allowed.
-void require_memory(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths) {
-  const Crop& c = extent.crop;
-  mc::require_memory(bytes_per_pixel(options, has_light_paths) * c.width * c.height,
-                     fmt::format("render: {}x{} pixels", c.width, c.height));
+double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths) {
+  return bytes_per_pixel(options, has_light_paths) * extent.crop.width * extent.crop.height;
 }
+
 constexpr double least_pilot = 16; ///< Least number of samples per pixel of a pilot.
 
 bool is_adaptive(const RenderOptions& options) {
@@ -139,6 +133,10 @@ const Scene& checked(const Scene& scene, const RenderOptions& options) {
 
 } // namespace
 
+double memory_needed(const Scene& scene, const RenderOptions& options) {
+  return bytes_of(extent_of(options), options, light_tracer_for(scene, options).has_value());
+}
+
 RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
     : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(checked(scene, options), options)),
       light_tracer_(light_tracer_for(scene, options)),
@@ -153,7 +151,9 @@ RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
 }
 
 Film RenderJob::checked_film() const {
-  require_memory(extent_, options_, light_tracer_.has_value());
+  mc::require_memory(bytes_of(extent_, options_, light_tracer_.has_value()),
+                     fmt::format("render: {}x{} pixels", extent_.crop.width, extent_.crop.height),
+                     "fewer pixels or a part of them need less");
   return new_film();
 }
 

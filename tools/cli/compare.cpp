@@ -8,6 +8,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <fmt/format.h>
@@ -133,6 +134,9 @@ int run_compare(const CompareCommandOptions& options) {
   const Image a = render::read_image(options.a), b = render::read_image(options.b);
   require_comparable(options.a, a, options.b, b);
   if (!options.report.empty()) require_viewable(options.a, a, "compare parts by carlo view --crop");
+  if (!options.diff.empty())
+    mc::require_memory(double(sizeof(render::Spectrum)) * double(a.pixels.size()),
+                       fmt::format("--diff: {}x{} pixels", a.width, a.height), "leave it out");
 
   const std::vector<Metric> all = difference_metrics(a, b);
   if (options.metric.empty())

@@ -17,6 +17,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <fmt/format.h>
@@ -298,6 +299,12 @@ int run_converge(const ConvergeCommandOptions& o) {
       mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions",
                   w.name, w.max_dimensions, t.integral.name, t.integral.dim);
   refuse_inputs(o, targets);
+  const bool is_logged = !o.checkpoint.checkpoint.empty() || !o.checkpoint.resume.empty();
+  mc::require_memory(
+      double(targets.size()) * (is_logged ? 2 : 1) *
+          replicates_memory(chosen, {.max_n = o.integral.max_n, .replicates = o.replicates}),
+      fmt::format("converge: the replicates of {} methods and {} integrals", chosen.size(), targets.size()),
+      "fewer --replicates need less");
   const std::filesystem::path folder = output_folder_of(o);
   const std::filesystem::path page = page_folder(o);
 

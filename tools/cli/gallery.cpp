@@ -3,6 +3,7 @@
 #include <input/file_hash.h>
 #include <options/checkpoint_options.h>
 #include <options/files.h>
+#include <options/memory_option.h>
 #include <options/run_session.h>
 #include <options/subcommand.h>
 #include <picture/picture.h>
@@ -16,6 +17,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +40,7 @@ struct GalleryCommandOptions {
   std::uint64_t seed = 0;
   int thumbnail_side = 64; ///< pixels
   int threads = 0;
+  std::optional<double> memory; ///< [GiB]
   CheckpointFiles checkpoint;
   std::string command;
 };
@@ -58,6 +61,7 @@ std::vector<Option> rows(GalleryCommandOptions& o) {
                          {"--thumbnails", "PIXELS", &o.thumbnail_side,
                           "Width of the pictures in sheet.png. From 256 on each has its name below it."},
                          {"--table", "", &o.table, "Print which scene requires which feature as Markdown, and stop."},
+                         memory_option(o.memory),
                          resume_row(o.checkpoint),
                      }};
   const std::vector<Option> files = checkpoint_rows(o.checkpoint, {"--time"});
@@ -163,11 +167,16 @@ class GalleryRun {
                                           [this](auto& a) { a(rendered_, thumbnails_, strategies_); });
     for (const RenderedScene& r : rendered_) print_line(r);
     require_pictures();
+    for (SceneJob& job : jobs_) {
+      job.settings.checkpoint = checkpoint;
+      mc::require_memory(render::memory_needed(job.file.scene, job.settings),
+                         fmt::format("{}: {}x{} pixels", job.scene->name, job.settings.width, job.settings.height),
+                         "a smaller --scale needs less");
+    }
     const std::size_t earlier = rendered_.size();
     mc::IndependentPieces pieces;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {
       SceneJob& job = jobs_[i];
-      job.settings.checkpoint = checkpoint;
       job.settings.executor = session.executor();
       bool is_cancelled = false;
       pieces.attempt([&] { is_cancelled = i >= earlier && !render_one(job, session); });
@@ -182,7 +191,7 @@ class GalleryRun {
   // The options, and the scenes with the bytes of their files.
   mc::RunIdentity identity() const {
     GalleryCommandOptions options = options_;
-    mc::RunIdentity identity = run_identity(rows(options), {"NAME", "--threads", "--resume", "--every"});
+    mc::RunIdentity identity = run_identity(rows(options), {"NAME", "--threads", "--memory", "--resume", "--every"});
     std::vector<std::string_view> names;
     std::set<std::string> files;
     for (const SceneJob& job : jobs_) {
@@ -332,6 +341,7 @@ int run_gallery(const GalleryCommandOptions& o) {
     fmt::print("{}", gallery_text());
     return exit_ok;
   }
+  limit_memory(o.memory);
   mc::require(o.scale > 0 && o.scale <= 4, "--scale {} must lie in (0, 4]", o.scale);
   mc::require(o.threads >= 0, "--threads {} must be >= 0", o.threads);
   mc::require(!o.spp || *o.spp >= 1, "--spp {} must be at least 1", o.spp.value_or(0));

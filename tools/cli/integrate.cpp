@@ -108,7 +108,7 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
             "sizes of values, in powers of 2."},
            {"--quantiles", "LIST", &o.quantiles,
             "Print quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95. Takes as many calls again, at least "
-            "98 k and at most 2^24 / (dimensions + 1)."},
+            "98 k and at most 2^24 / (dimensions + 2)."},
        }},
       expert,
   });
@@ -149,7 +149,7 @@ bool find_quantiles(IntegrateResults& found, const IntegrandSet& set, const std:
   if (wanted.empty()) return true;
   const UnitCubeIntegral& e = set.integrands.front();
   const double volume = measure_of(set, "--quantiles");
-  const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 1)),
+  const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 2)),
                       calls = found.results.outputs.front().calls;
   found.quantiles = mc::quantiles([&](std::span<const double> u) { return e.f(u) / volume; }, e.dim, wanted,
                                   {.calls = std::clamp(calls, std::min<std::uint64_t>(98'304, most), most),

@@ -2,6 +2,7 @@
 
 #include <options/files.h>
 #include <options/help.h>
+#include <options/memory_option.h>
 #include <options/subcommand.h>
 #include <terminal/columns.h>
 #include <terminal/interrupt.h>
@@ -10,6 +11,7 @@
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <CLI/CLI.hpp>
@@ -150,6 +152,20 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& e) {
   return fmt::format("unknown argument '{}'{} ({})", *word, mc::did_you_mean(*word, names), help);
 }
 
+// Runs a subcommand. The message of missing memory names the limit, and the option that sets another.
+int run_within_memory(const Subcommand& subcommand, const std::string& command) {
+  const char* remedy =
+      carlo::has_memory_option(subcommand) ? "--memory sets another limit" : "ulimit -v sets another limit";
+  try {
+    return subcommand.run(command);
+  } catch (const mc::MemoryError& e) {
+    throw mc::MemoryError(fmt::format("{}; {}", e.what(), remedy));
+  } catch (const std::bad_alloc&) {
+    throw mc::MemoryError(
+        fmt::format("out of memory; {:.3g} GiB are allowed; {}", mc::allowed_memory() / 0x1p30, remedy));
+  }
+}
+
 int run(int argc, char** argv) {
   CLI::App app(carlo::carlo_summary);
   app.set_version_flag("--version", fmt::format("carlo {} ({})", carlo::version, carlo::commit));
@@ -176,7 +192,7 @@ int run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     if (std::string(argv[i]) == "--merged-part") ++i; // not the user's: see cli/merge.cpp
     else command += " " + quoted(argv[i]);
-  const int code = given()->run(command);
+  const int code = run_within_memory(*given(), command);
   const int signal = carlo::Interrupt::signal();
   return code == carlo::exit_interrupted && signal != 0 ? 128 + signal : code;
 }
@@ -233,7 +249,7 @@ int run_and_finish(int argc, char** argv) {
     carlo::print_message(e.what());
     return carlo::exit_failed;
   } catch (const std::bad_alloc&) {
-    fail("out of memory; ask for a smaller image or fewer samples");
+    fail("out of memory");
   } catch (const std::filesystem::filesystem_error& e) {
     fail(fmt::format("cannot use '{}': {}", e.path1().string(), e.code().message()));
   } catch (const std::system_error& e) { // of fmt::print and ResultFile

@@ -48,11 +48,10 @@ constexpr int most_dimensions = 16;
 constexpr int axes_drawn = 8; // by projections_svg: more would be too small to read
 
 PointSets randomised(const PointSet& set, std::uint64_t n, const PointsCommandOptions& o) {
-  PointSets sets;
-  for (int r = 0; r < o.randomisations; ++r)
-    sets.push_back(set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(o.dim),
-                            r == 0 ? o.seed : mc::hash(o.seed, static_cast<std::uint64_t>(r))));
-  return sets;
+  return {static_cast<std::size_t>(o.randomisations), static_cast<std::size_t>(o.dim), [&set, &o, n](std::size_t r) {
+            return set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(o.dim),
+                            r == 0 ? o.seed : mc::hash(o.seed, static_cast<std::uint64_t>(r)));
+          }};
 }
 
 void line(const char* name, const std::string& one, const std::string& all, const std::string& random,
@@ -114,10 +113,11 @@ StarDiscrepancyBudget star_discrepancy_budget(std::uint64_t n, std::size_t dim, 
   return {last ? thorough : little, little / 10};
 }
 
-// The rows of the curves by increasing number of points, and the point sets of the last row.
+// The rows of the curves by increasing number of points, and the first point set of the last row.
 struct QualityRun {
   std::vector<QualityRow> rows;
-  PointSets sets;
+  std::vector<double> first;
+  std::size_t sets = 1; // number of randomisations
   bool interrupted = false;
 };
 
@@ -128,9 +128,9 @@ QualityRun measure_all(const PointsCommandOptions& o, int& dim) {
     const CsvTable& table = read.table;
     if (!read.note.empty()) fmt::print("{}\n", read.note);
     dim = static_cast<int>(table.columns);
-    m.sets = {table.values};
-    const StarDiscrepancyBudget work = star_discrepancy_budget(m.sets[0].size() / table.columns, table.columns, true);
-    m.rows = {measure_quality(m.sets, table.columns, o.threads, work)};
+    m.first = table.values;
+    const StarDiscrepancyBudget work = star_discrepancy_budget(table.rows(), table.columns, true);
+    m.rows = {measure_quality({1, table.columns, [&](std::size_t) { return m.first; }}, o.threads, work)};
     return m;
   }
   const PointSet& set = point_set(o.set);
@@ -145,16 +145,18 @@ QualityRun measure_all(const PointsCommandOptions& o, int& dim) {
       break;
     }
     progress.show(static_cast<double>(n * n) / static_cast<double>(4 * o.count * o.count), fmt::format("N = {}", n));
-    m.sets = randomised(set, n, o);
+    const PointSets sets = randomised(set, n, o);
+    m.sets = sets.count;
+    m.first = sets.make(0);
     const StarDiscrepancyBudget work = star_discrepancy_budget(n, static_cast<std::size_t>(dim), n == o.count);
-    m.rows.push_back(measure_quality(m.sets, static_cast<std::size_t>(dim), o.threads, work));
+    m.rows.push_back(measure_quality(sets, o.threads, work));
   }
   return m;
 }
 
 void write(const PointsCommandOptions& o, const std::filesystem::path& folder, const QualityRun& m, int dim) {
   ResultWriter results;
-  const mc::PointList first{m.sets[0], static_cast<std::size_t>(dim)};
+  const mc::PointList first{m.first, static_cast<std::size_t>(dim)};
   const std::string title = fmt::format("{}, {} dimensions", o.file.empty() ? o.set : std::string("points"), dim);
   const auto file = [&](const char* name) { return (folder / name).string(); };
   results.write(file("points.csv"), false, points_csv(first));
@@ -167,7 +169,7 @@ void write(const PointsCommandOptions& o, const std::filesystem::path& folder, c
               {"seed", o.seed},
               {"set", o.set},
               {"dimension", dim},
-              {"randomisations", m.sets.size()},
+              {"randomisations", m.sets},
               {"reference_sets", reference_sets},
               {"rows", json::array()}};
   for (const QualityRow& r : m.rows) all["rows"].push_back(to_json(r));
@@ -232,7 +234,7 @@ int run_points(const PointsCommandOptions& o) {
   if (m.rows.empty()) return exit_interrupted;
   fmt::print("{}: {} points in {} dimension{}\n", o.file.empty() ? o.set : o.file, m.rows.back().n, dim,
              dim == 1 ? "" : "s");
-  print(m.rows.back(), dim, m.sets.size());
+  print(m.rows.back(), dim, m.sets);
   if (dim > axes_drawn)
     fmt::print("points.svg shows the first {} of {} axes, {} of {} pairs\n", axes_drawn, dim,
                axes_drawn * (axes_drawn - 1) / 2, dim * (dim - 1) / 2);

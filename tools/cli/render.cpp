@@ -161,6 +161,14 @@ std::string progress_text(const render::Progress& p, const std::optional<double>
   return fmt::format("error {:.2f} %  {:.1f} % undecided  {}", 100 * p.relative_error, 100 * p.outlier_dominated, rate);
 }
 
+// Throws Error where the pixels, and `more` bytes, need more memory than is allowed.
+void require_memory(const render::Scene& scene, const render::RenderOptions& settings, double more = 0) {
+  const render::Crop part = crop_of(settings);
+  mc::require_memory(render::memory_needed(scene, settings) + more,
+                     fmt::format("render: {}x{} pixels", part.width, part.height),
+                     "a smaller --size or --crop needs less");
+}
+
 constexpr int compared_side = 96; // pixels
 
 int compare_all(const RenderCommandOptions& options, const render::Scene& scene, render::RenderOptions settings,
@@ -170,6 +178,7 @@ int compare_all(const RenderCommandOptions& options, const render::Scene& scene,
   mc::require(settings.spp >= 2, "--compare-strategies: one sample per pixel has no error bar; take two or more");
   mc::require(options.exposure != "auto", "--exposure auto is for one picture; give stops to --compare-strategies");
   mc::require(has_extension(output, ".png"), "--compare-strategies: cannot write '{}'; name a .png", output);
+  require_memory(scene, settings, strategy_strip_memory(scene, settings));
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   const auto start = std::chrono::steady_clock::now();
@@ -359,6 +368,7 @@ int run_render(const RenderCommandOptions& options) {
   settings.cancel = interrupt.flag();
   settings.checkpoint = session.checkpoint();
   settings.executor = session.executor();
+  require_memory(scene, settings);
   RenderWork work{options, read, fingerprint, file, output, picture == output, std::move(resumed), tone};
   return session.run([&] {
     render::RenderResult result = render::render(read.scene, settings);

@@ -14,6 +14,8 @@
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
+#include <mc/core/parallel.h>
 #include <mc/core/text.h>
 #include <mc/random/hash.h>
 #include <mc/run/job.h>
@@ -279,6 +281,14 @@ CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateComm
   return job.checked();
 }
 
+// Throws Error where the cases that are checked at a time need more memory than is allowed.
+void require_memory(std::size_t cases, const ValidateCommandOptions& o) {
+  const int threads = o.threads > 0 ? o.threads : mc::hardware_threads();
+  const std::size_t together = std::min(cases, static_cast<std::size_t>(threads));
+  mc::require_memory(double(together) * mc::check_memory(o.samples),
+                     fmt::format("validate: {} cases at a time", together), "fewer --threads need less");
+}
+
 // The options on which the reports depend, and the cases.
 mc::RunIdentity identity_of(ValidateCommandOptions o, const std::vector<const Case*>& cases) {
   mc::RunIdentity identity =
@@ -374,6 +384,7 @@ int run_validate(const ValidateCommandOptions& options) {
   const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
   const ResultFiles files(o);
   resolve_sample_count(o, alpha, user_input.samples);
+  require_memory(cases.size(), o);
   RunSession session(o.checkpoint, identity_of(o, cases), o.output, o.command);
   return session.run([&] {
     const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag(), session);

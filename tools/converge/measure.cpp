@@ -337,6 +337,14 @@ bool ConvergenceCurve::agrees_with_theory() const {
   return power_law && theory && theory->is_consistent_with(power_law->lo, power_law->hi, fit_center);
 }
 
+double replicates_memory(const std::vector<SamplingMethod>& methods, const MeasureOptions& o) {
+  const double each = 3 * sizeof(double) * (o.replicates > 0 ? double(o.replicates) : double(most_replicates));
+  double sets = 0;
+  for (const SamplingMethod& m : methods)
+    for (std::uint64_t n = 16; n <= std::min(o.max_n, m.max_calls); n *= 2) sets += n >= m.min_calls;
+  return each * sets;
+}
+
 Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,
                                 const MeasureOptions& options) {
   static const std::atomic<bool> never = false;

@@ -81,6 +81,9 @@ struct Measurement {
   std::string plain_mc = "random";  ///< name of the method that is plain Monte Carlo
 };
 
+/// Memory that the replicates of one integral need [bytes], at the largest N of every method.
+double replicates_memory(const std::vector<SamplingMethod>& methods, const MeasureOptions& options);
+
 /// Runs every method with N = 16, 32, ... max_n evaluations, starting at the method's smallest possible N.
 ///   truth  : if the integral states none, the mean of 128 additional replicates of the method with the smallest error
 ///            at its largest N. The standard error of this mean is under a tenth of the smallest reported error, and

@@ -1,6 +1,7 @@
 #include <converge/picture_measurement.h>
 
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/estimate/moments.h>
 #include <mc/random/hash.h>
 #include <mc/run/job.h>
@@ -220,17 +221,25 @@ class PictureSession {
       : file_(file), methods_(methods), options_(options), curves_(methods.size()) {}
 
   PictureMeasurement run() {
+    require_memory(least_pictures(options_.max_spp) + least_pictures(options_.max_spp / 2)); // of the last two levels
     const mc::Checkpoint::Section section(options_.checkpoint, "pictures", [this](auto& a) { archive(a); });
     bool stopped = false;
     for (; spp_ <= options_.max_spp && (is_within_level() || is_time_left()); spp_ *= 2) {
       if (!is_within_level()) begin_level();
-      stopped = !measure_level();
+      try {
+        stopped = !measure_level();
+      } catch (const mc::MemoryError& e) {
+        if (last_level_.empty()) throw;
+        cut_short_ = e.what();
+        break;
+      }
       if (stopped) break;
       last_ = elapsed() - level_begin_;
     }
     if (options_.checkpoint && !stopped) options_.checkpoint->save_and_wait(); // when cancelled, a render saved
     PictureMeasurement result = collect();
     result.measurement.interrupted = stopped;
+    result.cut_short = cut_short_;
     return result;
   }
 
@@ -257,7 +266,24 @@ class PictureSession {
   bool is_within_level() const { return !wanted_.empty(); }
   // Twice the samples take twice as long; the first level is always measured.
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
-  bool is_due(const RenderMethod& method) const { return !is_adaptive(method.allocation) || spp_ >= 32; }
+  static bool is_due(const RenderMethod& method, int spp) { return !is_adaptive(method.allocation) || spp >= 32; }
+  int first_wanted() const { return options_.replicates > 0 ? options_.replicates : first_pictures; }
+  // Least number of pictures of all methods at a level.
+  double least_pictures(int spp) const {
+    return first_wanted() * double(std::count_if(methods_.begin(), methods_.end(),
+                                                 [spp](const RenderMethod& m) { return is_due(m, spp); }));
+  }
+  // Throws MemoryError where more pictures, the reference and a render need more memory than is allowed.
+  void require_memory(double pictures) const {
+    constexpr double references = 2; // while one is added
+    double film = 0;
+    for (const RenderMethod& m : methods_)
+      film = std::max(film, render::memory_needed(file_.scene, render_options(m, 1, 0, {})));
+    const double picture = 2.0 * sizeof(render::Spectrum) * options_.width * options_.height;
+    mc::require_memory((pictures + references) * picture + film,
+                       fmt::format("{:.0f} pictures of {}x{} pixels", pictures, options_.width, options_.height),
+                       "a smaller --size or fewer methods need less");
+  }
   void show(double share, const std::string& where) const {
     const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // samples of all levels
     if (options_.progress) options_.progress((before + share * spp_) / all, where);
@@ -268,7 +294,7 @@ class PictureSession {
     level_.assign(methods_.size(), PictureSeries{double(spp_)});
     wanted_.assign(methods_.size(), 0);
     for (std::size_t i = 0; i < methods_.size(); ++i)
-      if (is_due(methods_[i])) wanted_[i] = options_.replicates > 0 ? options_.replicates : first_pictures;
+      if (is_due(methods_[i], spp_)) wanted_[i] = first_wanted();
     phase_ = Phase::begin;
   }
 
@@ -302,6 +328,10 @@ class PictureSession {
   // Renders the methods in turn until each has the wanted number of pictures. Returns false when cancelled.
   bool render_missing() {
     const int most = *std::max_element(wanted_.begin(), wanted_.end());
+    double missing = 0;
+    for (std::size_t i = 0; i < methods_.size(); ++i)
+      missing += std::max(wanted_[i] - double(level_[i].images.size()), 0.0);
+    require_memory(missing);
     mc::IndependentPieces pieces; // a part renders its share of each
     for (int r = 0; r < most; ++r)
       for (std::size_t i = 0; i < methods_.size(); ++i) {
@@ -355,6 +385,11 @@ class PictureSession {
 
   render::RenderResult render_picture(const RenderMethod& method, int spp, std::uint64_t seed,
                                       const std::string& name) const {
+    return render::render(file_.scene, render_options(method, spp, seed, name));
+  }
+
+  render::RenderOptions render_options(const RenderMethod& method, int spp, std::uint64_t seed,
+                                       const std::string& name) const {
     render::RenderOptions o;
     o.name = name;
     o.executor = options_.executor;
@@ -372,7 +407,7 @@ class PictureSession {
     o.threads = options_.threads;
     o.cancel = options_.cancel;
     o.checkpoint = options_.checkpoint;
-    return render::render(file_.scene, o);
+    return o;
   }
 
   // The result from the finished levels.
@@ -421,6 +456,7 @@ class PictureSession {
   std::uint64_t references_ = 0; ///< number of pictures averaged into the reference
   int spp_ = 4;                  ///< samples per pixel of the current level
   double last_ = 0;              ///< seconds of the last level
+  std::string cut_short_;        ///< see PictureMeasurement
 };
 
 } // namespace

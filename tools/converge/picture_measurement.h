@@ -82,6 +82,7 @@ struct PictureMeasurement {
   std::vector<render::Image> pictures; ///< one for each method, with its largest number of samples
   double reference_error = 0;          ///< root of the relmse caused by the noise of the reference
   double reference_spp = 0;
+  std::string cut_short; ///< why memory ended the run before max_spp; empty: it did not
 };
 
 /// Runs every method with 4, 8, ... max_spp samples per pixel (adaptive ones from 32). The methods take turns, so that
@@ -91,7 +92,10 @@ struct PictureMeasurement {
 ///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias.
 ///   reference : mis+lt, sobol and the scene's longest path; at each level its samples grow until its error is a tenth
 ///               of the smallest noise.
+///   memory    : all pictures of the last two levels, with their variances. A level that needs more than is allowed ends
+///               the run.
 ///   throws    : Error for a black scene, no methods, fewer than 3 pictures, or max_spp below 16 or above 2^28.
+///               MemoryError before any work for more pictures than the memory allows.
 PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
                                     const PictureOptions& options);
 

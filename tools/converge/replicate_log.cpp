@@ -52,6 +52,13 @@ Replicates ReplicateLog::compute(const IntegralTarget& target, ReplicateTask tas
   return std::move(job.replicates);
 }
 
+Replicates ReplicateLog::result_of(Entry entry) {
+  earlier_ = entry.elapsed;
+  start_ = Clock::now();
+  if (!entry.error.empty()) throw mc::Error(entry.error);
+  return std::move(entry.replicates);
+}
+
 Replicates ReplicateLog::run(const IntegralTarget& target, ReplicateTask task) {
   const std::string key = fmt::format("{} {}{} {} {} {} {}", target.integral.name, task.method->name,
                                       task.method->scalar_calls ? " 1" : "", task.n, task.seed, task.first, task.count);
@@ -73,14 +80,11 @@ Replicates ReplicateLog::run(const IntegralTarget& target, ReplicateTask task) {
       if (checkpoint_ && checkpoint_->saves() == saves) checkpoint_->save_and_wait();
       return entry.replicates;
     }
+    if (!checkpoint_) return result_of(std::move(entry));
     entries_.push_back(std::move(entry));
-    if (checkpoint_ && checkpoint_->is_due()) checkpoint_->save();
+    if (checkpoint_->is_due()) checkpoint_->save();
   }
-  const Entry& entry = entries_[next_++];
-  earlier_ = entry.elapsed;
-  start_ = Clock::now();
-  if (!entry.error.empty()) throw mc::Error(entry.error);
-  return entry.replicates;
+  return result_of(entries_[next_++]);
 }
 
 void ReplicateLog::save() {

@@ -11,7 +11,7 @@ namespace carlo {
 
 /// The results of a sequence of tasks, as a section of a checkpoint. A resumed program issues the same tasks in the
 /// same order, since each decision follows from earlier results: it gets the results of finished tasks from the log.
-/// The memory is that of the replicates, which the curves keep, too.
+/// The memory is that of the replicates, which the curves keep, too. Without a checkpoint nothing is kept.
 class ReplicateLog {
  public:
   /// A null checkpoint has no effect.
@@ -42,6 +42,7 @@ class ReplicateLog {
   using Clock = std::chrono::steady_clock;
 
   Replicates compute(const IntegralTarget& target, ReplicateTask task, const std::string& name) const;
+  Replicates result_of(Entry entry); ///< the replicates of the task that is asked for, or its error
 
   mc::Checkpoint* checkpoint_;
   mc::Executor executor_;

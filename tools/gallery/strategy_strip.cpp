@@ -40,12 +40,19 @@ render::Image strategy_strip(const render::Scene& scene, render::RenderOptions s
       settings.spp = spp;
       render::RenderResult r = render::render(scene, settings);
       if (r.partial) return {};
+      r.image.variance = {};
       for (render::Spectrum& p : r.image.pixels) p = tone_map(p, tone).cast<render::Float>();
       pictures.push_back(std::move(r.image));
     }
   }
   return contact_sheet(pictures, static_cast<int>(strip_spp.size()),
                        std::max({settings.width, settings.height, label_width(labels.columns.back())}), labels);
+}
+
+double strategy_strip_memory(const render::Scene& scene, const render::RenderOptions& settings) {
+  const double side = std::max(settings.width, settings.height),
+               cells = double(complete_strategies(scene).size() * strip_spp.size());
+  return sizeof(render::Spectrum) * cells * (double(settings.width) * settings.height + side * side);
 }
 
 std::string strategy_table(const std::vector<StrategyResult>& same_samples,

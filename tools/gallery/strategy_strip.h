@@ -19,6 +19,9 @@ inline constexpr std::array<int, 6> strip_spp = {1, 4, 16, 64, 256, 1024};
 render::Image strategy_strip(const render::Scene& scene, render::RenderOptions settings,
                              const render::ToneMapping& tone);
 
+/// Memory that strategy_strip() needs beside that of a render [bytes].
+double strategy_strip_memory(const render::Scene& scene, const render::RenderOptions& settings);
+
 /// A line for each strategy. It has the error with equal samples and in equal time, and the cost of a given error
 /// relative to the cheapest strategy that samples all light. It has the mean of the picture with its standard error,
 /// relative to the most precise mean.

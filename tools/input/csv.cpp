@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <algorithm>
@@ -168,6 +169,16 @@ void require_text(const std::string& file, const std::string& bytes) {
                               bad - bytes.begin(), static_cast<unsigned>(static_cast<unsigned char>(*bad))));
 }
 
+// Makes room for a number of rows like the first one, which the table contains.
+void reserve(CsvTable& table, std::size_t rows, const std::string& file) {
+  const double bytes_of_number = sizeof(double) + 2 * sizeof(std::int16_t);
+  mc::require_memory(double(rows) * (double(table.columns) * bytes_of_number + sizeof(std::uint32_t)),
+                     fmt::format("{}: {} rows of {} numbers", file, rows, table.columns));
+  table.values.reserve(rows * table.columns);
+  table.digits.reserve(rows * table.columns);
+  table.lines.reserve(rows);
+}
+
 } // namespace
 
 CsvTable read_csv(const std::string& file) {
@@ -192,7 +203,10 @@ CsvTable read_csv(const std::string& file) {
       if (std::exchange(first, false) && is_header(text)) continue;
       parse_row(text, table, columns);
       const std::size_t found = table.values.size() - before;
-      if (table.lines.empty()) table.columns = found;
+      if (table.lines.empty()) {
+        table.columns = found;
+        reserve(table, 1 + static_cast<std::size_t>(std::count(rest.begin(), rest.end(), line_end)) + 1, file);
+      }
       mc::require(found == table.columns, "{} numbers; the rows before have {}", found, table.columns);
     } catch (const mc::Error& e) {
       throw mc::Error(fmt::format("{}:{}: {}", file, line, mc::printable(e.what())));

@@ -9,6 +9,7 @@
 
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/core/sum.h>
 #include <mc/core/turns.h>
 #include <mc/random/uniform.h>
@@ -254,6 +255,8 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
 // The samples on the unit square of the grid, in the order of the file.
 OrderedSamples in_order(const SamplesFile& f) {
   OrderedSamples samples{{}, f.domain.axes(), f.domain.columns() == 1 ? 1 : 2};
+  mc::require_memory(double(f.table.rows()) * sizeof(Subject::Coordinates), fmt::format("{}: its samples", f.file));
+  samples.points.reserve(f.table.rows());
   for (std::size_t i = 0; i < f.table.rows(); ++i) {
     const auto p = f.domain.to_square(f.table.row(i));
     samples.points.push_back(p ? Subject::Coordinates{(*p)[0], (*p)[1], 0} : Subject::Coordinates{});

@@ -7,6 +7,7 @@
 #include <options/integral_options.h>
 #include <options/pixels.h>
 #include <picture/picture.h>
+#include <terminal/message.h>
 #include <terminal/progress.h>
 
 #include <mc/core/error.h>
@@ -202,7 +203,10 @@ PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureReques
   p.executor = run.executor;
   ProgressLine progress;
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
-  return mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });
+  PictureMeasurement measured =
+      mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });
+  if (!measured.cut_short.empty()) warn("{}: larger numbers of samples are left out", measured.cut_short);
+  return measured;
 }
 
 namespace {

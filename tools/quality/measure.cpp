@@ -74,23 +74,27 @@ QualityReference means(std::span<const ReferenceSetQuality> all) {
 
 } // namespace
 
-QualityRow measure_quality(const PointSets& sets, std::size_t dim, int threads, StarDiscrepancyBudget work) {
+QualityRow measure_quality(const PointSets& sets, int threads, StarDiscrepancyBudget work) {
   QualityRow row;
-  row.n = sets[0].size() / dim;
-  const double n = static_cast<double>(row.n), count = static_cast<double>(sets.size());
+  const std::size_t dim = sets.dim;
+  const std::vector<double> first = sets.make(0);
+  row.n = first.size() / dim;
+  const double n = static_cast<double>(row.n), count = static_cast<double>(sets.count);
   const int rings = dim < 2 ? 0 : std::clamp(static_cast<int>(std::lround(2 * std::sqrt(n))), 4, 128);
   const auto axes = static_cast<int>(dim);
-  std::vector<Quality> all(sets.size());
+  std::vector<Quality> all(sets.count);
   std::vector<ReferenceSetQuality> others(2 * reference_sets);
   // The longest task comes first.
-  mc::parallel_for(1 + others.size() + sets.size(), threads, [&](std::size_t i) {
+  mc::parallel_for(1 + others.size() + sets.count, threads, [&](std::size_t i) {
     if (i == 0) {
-      row.star = mc::star_discrepancy({sets[0], dim}, work.set);
-      row.t = mc::net_quality({sets[0], dim});
+      row.star = mc::star_discrepancy({first, dim}, work.set);
+      row.t = mc::net_quality({first, dim});
     } else if (i <= others.size()) {
       others[i - 1] = reference_set_quality(i - 1, row.n, dim, work.reference);
     } else {
-      all[i - 1 - others.size()] = quality_of({sets[i - 1 - others.size()], dim}, rings);
+      const std::size_t r = i - 1 - others.size();
+      const std::vector<double> set = sets.make(r);
+      all[r] = quality_of({set, dim}, rings);
     }
   });
   row.first_l2 = all[0].l2;

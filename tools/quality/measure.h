@@ -11,7 +11,12 @@
 
 namespace carlo {
 
-using PointSets = std::vector<std::vector<double>>;
+/// Randomisations of a point set, which are made when they are measured: one for each thread is in memory.
+struct PointSets {
+  std::size_t count; ///< number of randomisations
+  std::size_t dim;   ///< number of dimensions
+  std::function<std::vector<double>(std::size_t i)> make;
+};
 
 /// Number of random sets, and of jittered sets, for the reference means that no formula gives. The star discrepancy is
 /// expensive and varies little, so it uses only the first reference_stars of them.
@@ -46,7 +51,7 @@ struct StarDiscrepancyBudget {
   std::uint64_t set, reference;
 };
 
-QualityRow measure_quality(const PointSets& sets, std::size_t dim, int threads, StarDiscrepancyBudget work);
+QualityRow measure_quality(const PointSets& sets, int threads, StarDiscrepancyBudget work);
 
 /// The mean power in the rings of frequencies up to sqrt(n) / 2, which determines the error for smooth integrands.
 double low_frequency_power(const std::vector<double>& power, std::uint64_t n);

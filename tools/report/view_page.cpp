@@ -7,8 +7,10 @@
 #include <render/film/confidence_interval.h>
 
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace carlo {
@@ -77,6 +79,9 @@ std::string to_html(const ViewPage& page) {
 void require_viewable(const std::string& name, const render::Image& image, const std::string& remedy) {
   mc::require(image.pixels.size() <= most_pixels, "'{}' has {}x{} pixels, and a page at most {}; {}", name, image.width,
               image.height, most_pixels, remedy);
+  constexpr double per_pixel = 150; // numbers, their bytes, and these as text, in the page and in its data
+  mc::require_memory(per_pixel * double(image.pixels.size()),
+                     fmt::format("a page of {}x{} pixels", image.width, image.height), remedy);
 }
 
 } // namespace carlo

@@ -33,7 +33,7 @@ struct ViewPage {
 /// Pictures with variances have 95 % intervals, see render::interval_half_widths().
 std::string to_html(const ViewPage& page);
 
-/// Throws Error for a picture of more pixels than a browser can show: name the remedy with it.
+/// Throws Error for a picture of more pixels than a browser can show, or than the memory allows; names the remedy.
 void require_viewable(const std::string& name, const render::Image& image, const std::string& remedy);
 
 } // namespace carlo

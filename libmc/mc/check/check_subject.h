@@ -64,6 +64,10 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
 ///   throws     : Error if samples < 1000, or if alpha is not in (0, 1).
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
 
+/// Memory that check_subject needs for two dimensions or three [bytes]; one dimension needs less. It is bounded for any
+/// number of samples.
+double check_memory(std::uint64_t samples);
+
 /// Returns the number of samples with which check_subject detects a relative error `error` of the density, of random
 /// sign (see Report), with probability .99. `alpha` is family-wise, `dim` is the dimension of the chart; more
 /// dimensions need more samples. Throws Error unless error > 0 and 0 < alpha < 1.

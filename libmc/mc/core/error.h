@@ -17,6 +17,11 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Exception for work that needs more memory than is allowed; see memory.h.
+struct MemoryError : Error {
+  using Error::Error;
+};
+
 namespace detail {
 template <class... Args>
 [[noreturn, gnu::cold, gnu::noinline]] void refuse(fmt::format_string<Args...> message, Args&&... args) {
@@ -32,10 +37,12 @@ template <class... Args>
     detail::refuse(message, std::forward<Args>(args)...); // out of line: callers are hot and small
 }
 
-/// Runs f and returns its result. Prefixes the message of an Error that f throws with "where: ".
+/// Runs f and returns its result. Prefixes the message of an Error or MemoryError that f throws with "where: ".
 template <class F> decltype(auto) with_context(std::string_view where, F&& f) {
   try {
     return std::forward<F>(f)();
+  } catch (const MemoryError& e) {
+    throw MemoryError(fmt::format("{}: {}", where, e.what()));
   } catch (const Error& e) {
     throw Error(fmt::format("{}: {}", where, e.what()));
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Limit of the memory that the content of a file may take.
+/// Limit of the memory of this process, for work whose size a file or an option determines.
 
 #include <string_view>
 
@@ -9,10 +9,11 @@ namespace mc {
 /// is one; else half of the memory of the machine or of its control group.
 double allowed_memory();
 
-/// Throws Error if `bytes` exceed allowed_memory(): "40000x40000 pixels need 18 GiB of memory; 7.8 GiB are allowed
-/// (--memory)". Call it before an allocation whose size a file determines.
-///   what : the beginning of the message, "40000x40000 pixels"
-void require_memory(double bytes, std::string_view what);
+/// Throws MemoryError if `bytes` and the memory in use exceed allowed_memory(): "40000x40000 pixels need 18 GiB of
+/// memory; 7.8 GiB are allowed; --crop renders a part". Call it before the allocation.
+///   what   : the beginning of the message, "40000x40000 pixels"
+///   remedy : what the caller of this function can offer; empty: nothing
+void require_memory(double bytes, std::string_view what, std::string_view remedy = {});
 
 /// Sets the limit of this process. Allocations beyond it fail with std::bad_alloc.
 void limit_memory(double bytes);

@@ -1,4 +1,5 @@
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 #include <mc/random/hash.h>
 #include <mc/run/part_run.h>
@@ -59,6 +60,7 @@ PartRun::PartRun(Part part, std::vector<std::string> command, Checkpoint* checkp
 }
 
 void PartRun::add(const std::string& bytes) {
+  require_memory(double(bytes.size()), "the results of a part");
   Results more;
   ArchiveReader reader(bytes);
   reader(more).require_end();

@@ -4,6 +4,8 @@
 #include <render/accel/wide_tree.h>
 #include <render/shape/shape.h>
 
+#include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/core/parallel.h>
 
 #include <algorithm>
@@ -34,6 +36,8 @@ template <class Block> class BlockTree {
     const Primitives primitives = collected(shapes);
     const auto count = static_cast<std::uint32_t>(primitives.size());
     if (count > Block::max_brute_force) {
+      mc::require_memory(build_bytes * double(count), fmt::format("the hierarchy of {} primitives", count),
+                         "fewer of them need less");
       tree_ = WideTree(
           count, [&](std::size_t i) { return primitives[i].bounds(); }, lanes);
       bounds_ = tree_.bounds();
@@ -79,6 +83,7 @@ template <class Block> class BlockTree {
   using Primitive = typename Block::Primitive;
   using Primitives = std::vector<Primitive, HugePageAllocator<Primitive>>;
   static constexpr std::uint32_t lanes = 8;
+  static constexpr double build_bytes = 85; ///< of a primitive while the tree is built, beside `primitives`
 
   // All valid primitives in the order of the shapes.
   static Primitives collected(std::span<const Shape* const> shapes) {

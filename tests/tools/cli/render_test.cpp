@@ -57,7 +57,7 @@ TEST_F(RenderCommand, BadInput_IsReportedInOneLine) {
   expect_refused(cbox() + " --crop 1,2,3", {"--crop '1,2,3'", "X,Y,WIDTH,HEIGHT"});
   expect_refused(cbox() + " --crop 0,0,4294967297,1", {"--crop '0,0,4294967297,1'"});
   expect_refused(scenes + "cbox.xml --size 4294967304x8 -o " + path("out.pfm"), {"--size '4294967304x8'"});
-  expect_refused(scenes + "cbox.xml --size 1e6x1e6 -o " + path("out.pfm"), {"1000000x1000000 pixels are more than"});
+  expect_refused(scenes + "cbox.xml --size 1e6x1e6 -o " + path("out.pfm"), {"render: 1000000x1000000 pixels need "});
   expect_refused(cbox() + " --crop 6,0,3,3", {"crop of 3x3 pixels at (6, 0)", "8x8"});
   expect_refused(cbox() + " --layers", {"--layers", "out.pfm", ".exr"});
   expect_refused(cbox() + " --tone filmc", {"'filmc'", "did you mean 'filmic'"});

@@ -11,8 +11,11 @@
 namespace mc::detail {
 
 namespace {
-constexpr std::uint64_t chunk = 4096; // points per task: fixed, so that sums do not depend on the number of threads
-constexpr std::uint64_t block = 256;  // points drawn at once
+// Points of a chunk, whose sums are merged in order. Their number depends on the evaluation alone, so that sums do not
+// depend on the number of threads. Large evaluations have larger chunks, so that the number of sums is bounded.
+constexpr std::uint64_t least_chunk = 4096, most_chunks = 1 << 16;
+constexpr std::uint64_t most_unit = 1 << 18;    // points of a unit of several chunks
+constexpr std::uint64_t block = 256;            // points drawn at once
 constexpr std::uint64_t least_shared = 1 << 16; // calls from which an executor computes; fewer are not worth messages
 constexpr double thread_start = 5e-4;           // seconds of work above which other threads pay off
 constexpr double most_infinite = 1e-3;          // largest volume of infinite values; a larger one is no singularity
@@ -88,7 +91,10 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
       const auto m = static_cast<std::size_t>(std::min<std::uint64_t>(n, range.recorded - done));
       const auto at = static_cast<std::ptrdiff_t>(range.place + done);
       std::copy_n(points.begin(), m * d, keep.record->points.begin() + at * dim);
-      std::copy_n(all.begin(), m * outputs, keep.record->values.begin() + at * static_cast<std::ptrdiff_t>(outputs));
+      for (std::size_t i = 0; i < m; ++i) {
+        const auto to = (at + static_cast<std::ptrdiff_t>(i)) * static_cast<std::ptrdiff_t>(primary());
+        std::copy_n(&all[i * outputs], primary(), keep.record->values.begin() + to);
+      }
       std::copy_n(factors.begin(), m, keep.record->weights.begin() + at);
     }
     for (std::size_t k = 0; k < outputs; ++k) {
@@ -125,12 +131,14 @@ class Evaluator::EvaluateJob {
         empty_(evaluator.outputs), recorded_(keep.record ? std::min(count, keep.most_recorded / sets.size()) : 0),
         results_(sets.size()) {
     for (std::size_t k = 0; k < before.size(); ++k) empty_[k] = before[k].for_more_values();
-    const std::uint64_t chunks = (count + chunk - 1) / chunk;
-    points_ = chunk * std::clamp<std::uint64_t>(chunks * sets.size() / most_units, 1, most_chunks);
+    const auto chunks = [&] { return (count + chunk_ - 1) / chunk_ * sets.size(); };
+    while (chunks() > most_chunks) chunk_ *= 2;
+    points_ =
+        chunk_ * std::clamp<std::uint64_t>(chunks() / most_units, 1, std::max<std::uint64_t>(most_unit / chunk_, 1));
     units_ = (count + points_ - 1) / points_;
     if (!keep.record) return;
     keep.record->points.resize(sets.size() * recorded_ * dim());
-    keep.record->values.resize(sets.size() * recorded_ * evaluator.outputs);
+    keep.record->values.resize(sets.size() * recorded_ * evaluator.primary());
     keep.record->weights.resize(sets.size() * recorded_);
   }
 
@@ -145,12 +153,12 @@ class Evaluator::EvaluateJob {
     Result result;
     const std::size_t recorded = recorded_of(unit);
     result.record.points.resize(recorded * dim());
-    result.record.values.resize(recorded * evaluator_.outputs);
+    result.record.values.resize(recorded * evaluator_.primary());
     result.record.weights.resize(recorded);
     const Keep keep{keep_.batches, recorded > 0 ? &result.record : nullptr};
-    for (std::uint64_t done = begin; done < end; done += chunk) {
+    for (std::uint64_t done = begin; done < end; done += chunk_) {
       if (evaluator_.options.cancel && evaluator_.options.cancel->load()) return {};
-      const Chunk range{first_ + done, first_ + std::min(done + chunk, end), recorded_ - std::min(recorded_, done),
+      const Chunk range{first_ + done, first_ + std::min(done + chunk_, end), recorded_ - std::min(recorded_, done),
                         done - begin};
       result.chunks.push_back(evaluator_.evaluate_chunk(sets_[unit / units_], range, proposal_, keep, empty_));
     }
@@ -160,7 +168,7 @@ class Evaluator::EvaluateJob {
     for (Sums& sums : result.chunks) results_[unit / units_].merge(std::move(sums));
     if (recorded_of(unit) == 0) return;
     const auto at = static_cast<std::ptrdiff_t>(unit / units_ * recorded_ + begin_of(unit));
-    const auto width = static_cast<std::ptrdiff_t>(dim()), outputs = static_cast<std::ptrdiff_t>(evaluator_.outputs);
+    const auto width = static_cast<std::ptrdiff_t>(dim()), outputs = static_cast<std::ptrdiff_t>(evaluator_.primary());
     std::ranges::copy(result.record.points, keep_.record->points.begin() + at * width);
     std::ranges::copy(result.record.values, keep_.record->values.begin() + at * outputs);
     std::ranges::copy(result.record.weights, keep_.record->weights.begin() + at);
@@ -174,8 +182,7 @@ class Evaluator::EvaluateJob {
   std::vector<Sums> take_results() { return std::move(results_); }
 
  private:
-  static constexpr std::uint64_t most_units = 1024,
-                                 most_chunks = 64; // units of small evaluations, chunks of large ones
+  static constexpr std::uint64_t most_units = 1024; // of evaluations whose units are small
 
   std::size_t dim() const { return static_cast<std::size_t>(evaluator_.dim); }
   std::uint64_t begin_of(std::size_t unit) const { return unit % units_ * points_; }
@@ -191,6 +198,7 @@ class Evaluator::EvaluateJob {
   Keep keep_;
   std::vector<SampledValues> empty_;
   std::uint64_t recorded_;               ///< Points of each set.
+  std::uint64_t chunk_ = least_chunk;    ///< Points of a chunk.
   std::uint64_t points_ = 0, units_ = 0; ///< Points of a unit, units of a set.
   bool has_begun_ = false;
   mutable std::optional<Result> first_result_;

@@ -48,6 +48,8 @@ struct Evaluator {
   const IntegrateOptions& options; ///< Threads and cancellation.
   std::uint64_t calls = 0;         ///< Evaluations so far.
 
+  /// Number of outputs that determine the end and the density.
+  std::size_t primary() const { return outputs - options.auxiliary_outputs; }
   /// Calls that are left.
   std::uint64_t remaining() const { return options.max_calls - std::min(calls, options.max_calls); }
   /// Points [first, first + count) of each set. Returns one result per set; it has the same bits for any number of

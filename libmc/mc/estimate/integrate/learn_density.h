@@ -31,18 +31,17 @@ struct Proposal {
 /// Recorded points of several sets, one set after the other.
 struct Record {
   std::vector<double> points;  ///< Coordinates.
-  std::vector<double> values;  ///< Values of the integrand, output by output for each point.
+  std::vector<double> values;  ///< Values of the primary outputs, output by output for each point.
   std::vector<double> weights; ///< 1 / q of each point.
 };
 
-/// Recorded samples: points, values of `outputs` integrands, of which the first `primary` count, and weights 1 / q. A
-/// fixed half of them can be left out, for a check by points that were not learned from.
+/// Recorded samples: points, values of the `primary` outputs, and weights 1 / q. A fixed half of them can be left out,
+/// for a check by points that were not learned from.
 struct Samples {
   enum class Half { both, first, second };
 
   const Record& record;   ///< Points, values and weights.
   int dim;                ///< Dimension.
-  std::size_t outputs;    ///< Number of outputs.
   std::size_t primary;    ///< Number of outputs that count.
   Half half = Half::both; ///< Samples in use.
 
@@ -62,7 +61,7 @@ struct Samples {
     return most;
   }
   /// Value of an output at sample i.
-  double value(std::size_t i, std::size_t output) const { return record.values[i * outputs + output]; }
+  double value(std::size_t i, std::size_t output) const { return record.values[i * primary + output]; }
   /// Coordinates of sample i.
   std::span<const double> point(std::size_t i) const {
     return {record.points.data() + i * static_cast<std::size_t>(dim), static_cast<std::size_t>(dim)};

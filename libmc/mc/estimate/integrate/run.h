@@ -51,7 +51,7 @@ struct Run {
   /// Seconds since the begin.
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
   /// Number of outputs that determine the end and the density.
-  std::size_t primary() const { return evaluator.outputs - options().auxiliary_outputs; }
+  std::size_t primary() const { return evaluator.primary(); }
   /// Whether the points of a stream are interlaced.
   bool interlaced(Stream stream) const { return stream == Stream::rqmc && evaluator.dim <= 2; }
   /// Point sets of replicates [begin, end) of a round of a stream: interlaced Sobol' points for rqmc in up to two

@@ -1,6 +1,7 @@
 #include <render/io/mesh/mesh.h>
 
 #include <mc/core/error.h>
+#include <mc/core/memory.h>
 
 #include <Eigen/LU>
 
@@ -91,6 +92,10 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
 }
 
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat) {
+  constexpr double vertex = 2 * sizeof(Vec3d) + 2 * sizeof(Vec3), // placed and summed, and as the mesh keeps them
+      triangle = 6 * sizeof(std::uint32_t) + sizeof(Vec3) + 2 * sizeof(double); // sorted, kept, and a row of its table
+  mc::require_memory(vertex * double(file.positions.size()) + triangle * double(file.triangles.size()),
+                     fmt::format("{} triangles", file.triangles.size()));
   std::vector<Vec3d> placed;
   std::vector<Vec3> positions, normals;
   placed.reserve(file.positions.size());

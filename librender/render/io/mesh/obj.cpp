@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 #include <mc/random/hash.h>
 
@@ -157,10 +158,25 @@ void read_face(std::size_t line, std::string_view rest, const std::array<std::si
   }
 }
 
+// Makes room for the faces as if they were triangles.
+void reserve(std::size_t faces, Lines& lines) {
+  constexpr std::size_t corners = 3, bytes_of_vertex = sizeof(Vec3d) + 64; // 64 of a node of the map in mesh_of
+  constexpr std::size_t bytes_of_face =
+      corners * (sizeof(Corner) + sizeof(std::uint32_t)) + sizeof(std::size_t) + sizeof(std::uint32_t);
+  const std::size_t vertices = lines.values[position].size();
+  mc::require_memory(double(bytes_of_face) * double(faces) + double(bytes_of_vertex) * double(vertices),
+                     fmt::format("{} faces of {} vertices", faces, vertices));
+  lines.corners.reserve(corners * faces);
+  lines.ends.reserve(faces);
+  lines.groups.reserve(faces);
+}
+
 // Reads the faces last, because they may refer to elements below them.
 Lines lines_of(std::string_view text) {
   Lines lines;
+  std::size_t faces = 0;
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    faces += keyword == "f";
     for (std::size_t k = 0; k < elements.size(); ++k)
       if (keyword == elements[k].keyword)
         lines.values[k].push_back(numbers_of(line, elements[k], lines.values[k].size() + 1, rest));
@@ -168,6 +184,7 @@ Lines lines_of(std::string_view text) {
   for (std::size_t k = 0; k < elements.size(); ++k)
     mc::require(lines.values[k].size() < none, "it has {} lines {}; fewer than 2^32 - 1 can be read",
                 lines.values[k].size(), elements[k].keyword);
+  reserve(faces, lines);
   std::array<std::size_t, elements.size()> above = {};
   std::uint32_t group = 0;
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
@@ -210,6 +227,8 @@ MeshFile mesh_of(Lines lines) {
     mesh.uvs.emplace_back(static_cast<float>(t[0]), static_cast<float>(1 - t[1]));
     return at->second;
   };
+  mesh.positions.reserve(lines.values[position].size());
+  mesh.triangles.reserve(lines.ends.size());
   std::vector<std::uint32_t> face;
   std::size_t begin = 0;
   for (const std::size_t end : lines.ends) {

@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/memory.h>
 #include <mc/core/text.h>
 
 #include <algorithm>
@@ -221,14 +222,20 @@ void read_vertices(const Element& element, Numbers& numbers, MeshFile& mesh) {
   const auto s = number({"u", "s", "texture_u"}), t = number({"v", "t", "texture_v"});
   mc::require(x && y && z, "vertices need x, y and z");
   Rows rows(element, numbers, {});
+  const bool has_normals = nx && ny && nz, has_uvs = s && t;
+  const std::size_t bytes = (has_normals ? 2 : 1) * sizeof(Vec3d) + (has_uvs ? sizeof(mc::Vec2<float>) : 0);
+  mc::require_memory(double(bytes) * double(element.rows), fmt::format("{} vertices", element.rows));
+  mesh.positions.reserve(element.rows);
+  if (has_normals) mesh.normals.reserve(element.rows);
+  if (has_uvs) mesh.uvs.reserve(element.rows);
   for (std::size_t i = 0; i < element.rows; ++i) {
     rows.next();
     const auto at = [&](const std::optional<std::size_t>& column) { return rows.values[*column]; };
     const Vec3d p(at(x), at(y), at(z));
     mc::require(p.allFinite(), "vertex {} = ({}, {}, {}) is not finite", i, p[0], p[1], p[2]);
     mesh.positions.push_back(p);
-    if (nx && ny && nz) mesh.normals.emplace_back(at(nx), at(ny), at(nz));
-    if (s && t) mesh.uvs.emplace_back(static_cast<float>(at(s)), static_cast<float>(at(t)));
+    if (has_normals) mesh.normals.emplace_back(at(nx), at(ny), at(nz));
+    if (has_uvs) mesh.uvs.emplace_back(static_cast<float>(at(s)), static_cast<float>(at(t)));
   }
 }
 
@@ -242,6 +249,10 @@ void read_faces(const Element& element, Numbers& numbers, std::size_t vertices, 
   const auto list = element.column({"vertex_indices", "vertex_index"}, true);
   mc::require(list.has_value(), "faces need a list vertex_indices");
   Rows rows(element, numbers, list);
+  constexpr std::size_t corners = 3, bytes = 2 * corners * sizeof(std::uint32_t) + sizeof(std::size_t); // of a triangle
+  mc::require_memory(double(bytes) * double(element.rows), fmt::format("{} faces", element.rows));
+  faces.corners.reserve(corners * element.rows);
+  faces.ends.reserve(element.rows);
   for (std::size_t i = 0; i < element.rows; ++i) {
     rows.next();
     mc::require(rows.list.size() >= 3, "face {} has {} corners; at least 3 are needed", i, rows.list.size());
@@ -283,6 +294,7 @@ MeshFile mesh_of(std::string_view bytes) {
     }
   }
   mc::require(mesh.positions.size() == vertex->rows, "a second element vertex");
+  mesh.triangles.reserve(faces.ends.size());
   std::size_t begin = 0;
   for (const std::size_t end : faces.ends) {
     append_triangulated(mesh.positions, std::span(faces.corners).subspan(begin, end - begin), mesh.triangles);

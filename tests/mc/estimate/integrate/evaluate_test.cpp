@@ -48,6 +48,43 @@ TEST(Evaluator, RecordsTheFirstPointsOfEachSet) {
     }
 }
 
+// An output that is auxiliary has no part in learning.
+TEST(Evaluator, RecordsPrimaryOutputsOnly) {
+  const mc::VectorIntegrand three = [](std::span<const double> u, std::span<double> y) {
+    y[0] = u[0];
+    y[1] = 2 * u[0];
+    y[2] = -1;
+  };
+  mc::IntegrateOptions o;
+  o.auxiliary_outputs = 1;
+  detail::Run run{{{.several = &three}, 3, 1, o}};
+  Record record;
+  run.evaluator.evaluate(run.sobol_sets(Stream::rqmc, 0, 0, 2), 0, 5000, {}, {.record = &record});
+  ASSERT_EQ(record.values.size(), 2 * record.points.size());
+  for (std::size_t i = 0; i < record.points.size(); ++i) {
+    EXPECT_EQ(record.values[2 * i], record.points[i]);
+    EXPECT_EQ(record.values[2 * i + 1], 2 * record.points[i]);
+  }
+}
+
+// Parts and messages hold the sums of every unit.
+TEST(Evaluator, NumberOfUnits_IsBoundedInCalls) {
+  std::size_t units = 0;
+  mc::IntegrateOptions o;
+  o.max_calls = std::uint64_t{1} << 50;
+  o.executor = [&](const mc::AnyJob& job, const mc::RunOptions&) {
+    units = job.next_stage();
+    return false;
+  };
+  detail::Run run{{{.one = &weighted_sum}, 1, 2, o}};
+  const std::vector<mc::PointSet> sets = run.sobol_sets(Stream::rqmc, 0, 0, 16);
+  for (int power = 16; power <= 44; ++power) {
+    EXPECT_THROW(run.evaluator.evaluate(sets, 0, std::uint64_t{1} << power), Cancelled);
+    EXPECT_GE(units, 16u);
+    EXPECT_LE(units, 65536u) << "2^" << power << " points of each set";
+  }
+}
+
 // The average with weights and control must be the integral for any density.
 TEST(Evaluator, MixtureIsUnbiased) {
   mc::AdaptedDensity density{mc::ImportanceGrid(2)};

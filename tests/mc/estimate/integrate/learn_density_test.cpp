@@ -64,7 +64,7 @@ TEST(LearnDensity, HalvesAreDisjointAndComplete) {
   const Record record = record_of(peaks, 2, 100);
   std::vector<int> used(record.weights.size());
   for (const auto half : {Samples::Half::first, Samples::Half::second})
-    Samples{record, 2, 1, 1, half}.each([&](std::size_t i) { ++used[i]; });
+    Samples{record, 2, 1, half}.each([&](std::size_t i) { ++used[i]; });
   for (const int n : used) EXPECT_EQ(n, 1);
 }
 

@@ -1,3 +1,5 @@
+#include <mc/core/error.h>
+#include <mc/core/memory.h>
 #include <mc/core/types.h>
 #include <mc/estimate/integrate/corrections/pooled_variance.h>
 #include <mc/estimate/integrate/methods/methods.h>
@@ -108,9 +110,7 @@ AdaptedDensity density_of(const Run& run, const Replicates& r) {
 // other half. automatic tries a tree where few points dominated the sum.
 std::optional<Proposal> better_proposal(const Run& run, const Replicates& r, const Record& record, Method method,
                                         bool forced, bool hard) {
-  const auto samples = [&](Samples::Half half) {
-    return Samples{record, run.evaluator.dim, run.evaluator.outputs, run.primary(), half};
-  };
+  const auto samples = [&](Samples::Half half) { return Samples{record, run.evaluator.dim, run.primary(), half}; };
   const bool must_grow = method == Method::tree, may_grow = must_grow || (method == Method::automatic && hard);
   const Samples::Half learned = forced && must_grow == may_grow ? Samples::Half::both : Samples::Half::first;
   const AdaptedDensity from = density_of(run, r);
@@ -141,10 +141,23 @@ Method method_of(const Replicates& r) {
   return r.proposal().density->tree ? Method::tree : Method::vegas;
 }
 
+// Throws MemoryError where the recorded points need more memory than is allowed.
+//   copies : the record, the mixture, and units under way or the record of the fallback. A tree sorts coordinates.
+void require_memory(const Run& run, Method wanted) {
+  constexpr double copies = 2.6;
+  const double points = double(std::min(Keep{}.most_recorded, run.options().max_calls / 6)); // recorded at a time
+  const double dim = double(run.evaluator.dim), numbers = copies * (dim + double(run.primary()) + 1);
+  const double sorted = wanted == Method::vegas ? 0 : dim;
+  mc::require_memory(points * (numbers + sorted) * sizeof(double),
+                     fmt::format("integrate: {} dimensions and {} outputs", run.evaluator.dim, run.primary()),
+                     "the method plain needs less");
+}
+
 // Replicates through a sequence of densities, the first of which is uniform or the caller's. Whenever the calls have
 // doubled, a new density may replace the present one. It starts new replicates; the others are compared with the
 // answer.
 Outcome run_adaptive(Run& run, Method wanted) {
+  require_memory(run, wanted);
   const std::uint32_t count = run.options().replicates;
   const bool stays = wanted == Method::automatic; // with uniform points, where no density pays
   std::uint64_t round = 0, attempt = std::min(first_attempt, run.options().max_calls / 4);
