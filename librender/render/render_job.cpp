@@ -47,16 +47,21 @@ ImageExtent extent_of(const RenderOptions& options) {
 
 constexpr int point_sets = 2;
 
+int sets_of(const RenderOptions& options) {
+  return options.seconds || options.target_error ? point_sets : std::min(options.spp, point_sets);
+}
+
 // Bytes of a pixel: sums of each point set and of all samples, counts, and the image; twice with splats, whose passes
 // have films of their own. A checkpoint takes the sums once more, twice while it is written.
 double bytes_per_pixel(const RenderOptions& options, bool has_light_paths) {
   constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(std::uint32_t),
                    bytes_of_light_sums = sizeof(Eigen::Array3d);
-  double film = sizeof(SampleSums) + sizeof(std::uint64_t) + point_sets * bytes_of_set;
-  if (has_light_paths) film += sizeof(LightSums) + point_sets * bytes_of_light_sums;
-  if (options.splat) film += point_sets * sizeof(double);
+  const double sets = sets_of(options);
+  double film = sizeof(SampleSums) + sizeof(std::uint64_t) + sets * bytes_of_set;
+  if (has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
+  if (options.splat) film += sets * sizeof(double);
   const double copies = (options.splat ? 2 : 1) + (options.checkpoint ? 2 : 0);
-  return copies * film + 2 * sizeof(std::uint32_t) + 2 * sizeof(Spectrum);
+  return copies * film + 2 * sizeof(std::uint32_t) + sets * sizeof(Spectrum);
 }
 
 double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths) {
@@ -158,8 +163,7 @@ Film RenderJob::checked_film() const {
 }
 
 Film RenderJob::new_film() const {
-  const int sets = is_limited() ? point_sets : std::min(options_.spp, point_sets);
-  return {extent_.crop.width, extent_.crop.height, sets,
+  return {extent_.crop.width, extent_.crop.height, sets_of(options_),
           FilmOptions{.splat = splat_,
                       .has_light_paths = light_tracer_.has_value(),
                       .noise_area = options_.tiles ? PathReuseIntegrator<Scene>::noise_area : 1,

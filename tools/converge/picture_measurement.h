@@ -92,8 +92,8 @@ struct PictureMeasurement {
 ///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias.
 ///   reference : mis+lt, sobol and the scene's longest path; at each level its samples grow until its error is a tenth
 ///               of the smallest noise.
-///   memory    : all pictures of the last two levels, with their variances. A level that needs more than is allowed ends
-///               the run.
+///   memory    : all pictures of the last two levels, with their variances. A level that needs more than is allowed
+///               ends the run.
 ///   throws    : Error for a black scene, no methods, fewer than 3 pictures, or max_spp below 16 or above 2^28.
 ///               MemoryError before any work for more pictures than the memory allows.
 PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,

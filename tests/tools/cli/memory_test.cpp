@@ -110,10 +110,10 @@ TEST_F(MemoryOfCommands, HugeFiles_AreRefused) {
     write(name, "");
     std::filesystem::resize_file(path(name), std::uintmax_t{1} << 40);
   }
-  for (const std::string arguments :
-       {"points --points-file a.csv", "validate --samples-file a.csv --pdf 1 --domain x=0:1", "merge a.ckpt",
-        "converge x -d x=0:1 --points-file a.csv", "integrate x -d x=0:1 --load-density a.csv",
-        "render " + cbox + " --resume a.ckpt"})
+  for (const std::string& arguments :
+       std::vector<std::string>{"points --points-file a.csv", "validate --samples-file a.csv --pdf 1 --domain x=0:1",
+                                "merge a.ckpt", "converge x -d x=0:1 --points-file a.csv",
+                                "integrate x -d x=0:1 --load-density a.csv", "render " + cbox + " --resume a.ckpt"})
     expect_refused(1000, arguments, "its bytes", "");
 }
 

@@ -35,7 +35,7 @@ TEST(LearnDensity, TreeFollowsWhatIsNoProduct) {
     Proposal proposal;
     if (round > 0) proposal = {std::make_shared<mc::AdaptedDensity>(density), {2 * 2 * mc::pi<double> * 0.0025}};
     const Record record = record_of(peaks, 2, 256, proposal, round);
-    const Samples samples{record, 2, 1, 1};
+    const Samples samples{record, 2, 1};
     variance.push_back(variances(proposal, samples)[0]);
     density = adapted(density, samples, true);
   }
@@ -51,11 +51,11 @@ TEST(LearnDensity, TreeFollowsWhatIsNoProduct) {
 TEST(LearnDensity, VariancesPredictAnotherProposal) {
   const Function peak = [](std::span<const double> u) { return 1 / (0.01 + mc::sqr(u[0] - 0.4)) + u[1]; };
   const Record uniform = record_of(peak, 2, 1024);
-  const Samples samples{uniform, 2, 1, 1};
+  const Samples samples{uniform, 2, 1};
   const Proposal next{std::make_shared<mc::AdaptedDensity>(adapted({mc::ImportanceGrid(2)}, samples, false)), {25.0}};
   const double predicted = variances(next, samples)[0];
   const Record weighted = record_of(peak, 2, 1024, next, 1);
-  const double measured = variances(next, {weighted, 2, 1, 1})[0];
+  const double measured = variances(next, {weighted, 2, 1})[0];
   EXPECT_NEAR(predicted / measured, 1, 0.1);
   EXPECT_LT(measured, 0.2 * variances({}, samples)[0]);
 }
@@ -78,7 +78,7 @@ TEST(LearnDensity, DoesNotFollowSinglePoints) {
     return f;
   };
   const Record record = record_of(product, dim, 512);
-  const mc::AdaptedDensity learned = adapted({mc::ImportanceGrid(dim)}, {record, dim, 1, 1}, false);
+  const mc::AdaptedDensity learned = adapted({mc::ImportanceGrid(dim)}, {record, dim, 1}, false);
   std::vector<double> x(dim, 0.5), scratch(dim);
   const auto density = [&](std::size_t axis, double at) {
     x[axis] = at;
@@ -99,7 +99,7 @@ TEST(LearnDensity, DoesNotFollowSinglePoints) {
 // density which has a point in its region.
 TEST(MixtureRecord, PointsOfAllProposalsAreOneSample) {
   const Proposal uniform, peaked{std::make_shared<mc::AdaptedDensity>(
-                                     adapted({mc::ImportanceGrid(2)}, {record_of(peaks, 2, 256), 2, 1, 1}, false)),
+                                     adapted({mc::ImportanceGrid(2)}, {record_of(peaks, 2, 256), 2, 1}, false)),
                                  {}};
   detail::MixtureRecord all;
   all.add(record_of(peaks, 2, 256, uniform, 1), uniform, 2);
@@ -128,7 +128,7 @@ TEST(MixtureRecord, IsBounded) {
 TEST(LearnDensity, AllZero_StaysUniform) {
   const Function zero = [](std::span<const double>) { return 0.0; };
   const Record record = record_of(zero, 2, 64);
-  const mc::AdaptedDensity learned = adapted({mc::ImportanceGrid(2)}, {record, 2, 1, 1}, false);
+  const mc::AdaptedDensity learned = adapted({mc::ImportanceGrid(2)}, {record, 2, 1}, false);
   std::vector<double> scratch(2);
   EXPECT_NEAR(learned.density(std::array{0.3, 0.6}, scratch), 1, 1e-12);
 }
