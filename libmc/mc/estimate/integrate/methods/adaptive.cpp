@@ -16,6 +16,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t first_attempt = 4096;     // calls before the first density is learned
 constexpr double worth_an_attempt = 4;            // times the calls so far that must be missing
+constexpr double early = 64;                      // times the calls so far: while more are missing, forecasts improve
 constexpr double evenness = 0.5;                  // error of evenly spread points over that of independent ones
 constexpr double advantage = 1.25;                // by which a new density must be forecast to win: forecasts err
 constexpr double worth_another = 1.5;             // fall of the error that promises more
@@ -201,6 +202,10 @@ Outcome run_adaptive(Run& run, Method wanted) {
     const bool forced = must || !std::isfinite(error) || (r.proposal().density && improving);
     hard = hard || !std::isfinite(error);
     std::optional<Proposal> next;
+    if (!forced && missing > early * calls) {
+      attempt = 2 * r.calls();
+      continue;
+    }
     if ((must && left >= calls) || missing >= worth_an_attempt * calls) {
       points.add(r.record(), r.proposal(), run.evaluator.dim);
       next = better_proposal(run, r, points.record(), wanted, forced, hard);
