@@ -209,11 +209,14 @@ void refuse_inputs(const std::set<std::string>& files, const RenderCommandOption
   require_distinct_files(used);
 }
 
-void warn_where_light_is_missed(const render::Scene& scene, const render::RenderOptions& settings) {
-  if (settings.aov.kind == render::Aov::radiance && misses_light(scene, settings.strategy, settings.max_depth))
+void warn_where_light_is_missed(const render::SceneFile& read, const render::RenderOptions& settings) {
+  if (settings.aov.kind != render::Aov::radiance) return;
+  if (misses_light(read.scene, settings.strategy, settings.max_depth))
     warn("the strategy {} takes directions toward lights and importance targets only: it misses the light of other "
          "surfaces and of the sky; use mis",
          settings.strategy.name);
+  if (const std::string missing = missing_light_text(read, settings.strategy, settings.max_depth); !missing.empty())
+    warn("{}", missing);
 }
 
 // Throws Error for outputs that cannot be written.
@@ -299,6 +302,9 @@ int write_picture(RenderWork& work, render::RenderResult& result, const render::
     warn("{}", invalid);
   }
   add_metadata(result, from);
+  const std::string missing = missing_light_text(read, settings.strategy, settings.max_depth);
+  if (!missing.empty() && settings.aov.kind == render::Aov::radiance)
+    result.image.metadata["carlo.missing_light"] = missing;
   for (const auto& [key, value] : fingerprint) result.image.metadata[key] = value;
   if (resumed) accumulate_into(*resumed, result);
   if (options.layers) {
@@ -329,22 +335,22 @@ int run_render(const RenderCommandOptions& options) {
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
   const render::SceneFile read = read_scene(file, options);
-  const auto& [scene, defaults, origin, warnings, files] = read;
-  refuse_inputs(files, options, output);
+  const render::Scene& scene = read.scene;
+  refuse_inputs(read.files, options, output);
   warn_about_scene_file(read);
-  if (scene.lights().empty() && defaults.aov.kind == render::Aov::radiance)
+  if (scene.lights().empty() && read.defaults.aov.kind == render::Aov::radiance)
     warn("{} has no light; the image will be black", file);
 
   warn_if_imprecise(file, scene);
 
-  render::RenderOptions settings = settings_of(options, defaults, named);
+  render::RenderOptions settings = settings_of(options, read.defaults, named);
   const render::ToneMapping tone = tone_of(options, named);
   if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
   mc::require(options.checkpoint.is_part() || has_extension(output, ".png") ||
                   (options.tone.empty() && options.exposure.empty()),
               "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
               output);
-  warn_where_light_is_missed(scene, settings);
+  warn_where_light_is_missed(read, settings);
   const render::Crop part = crop_of(settings);
   ProgressLine progress;
   std::optional<RenderReport> report;

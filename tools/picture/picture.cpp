@@ -4,6 +4,7 @@
 #include <terminal/progress.h>
 #include <terminal/version.h>
 
+#include <render/integrator/missing_light.h>
 #include <render/scene/resolution.h>
 
 #include <fmt/format.h>
@@ -56,6 +57,17 @@ void warn_if_imprecise(const std::string& path, const render::Scene& scene) {
 
 void warn_about_scene_file(const render::SceneFile& file) {
   for (const std::string& warning : file.warnings) warn("{}", warning);
+}
+
+std::string missing_light_text(const render::SceneFile& file, const render::Strategy& strategy, int max_depth) {
+  const std::optional<render::MissingLight> missing = missing_light(file.scene, strategy, max_depth);
+  if (!missing || file.light_names.empty()) return {};
+  const std::string what = fmt::format("light of the {} by way of smooth surfaces, such as the {}, is missing",
+                                       file.light_names[missing->light], file.surface_names[missing->surface]);
+  return missing->is_partial
+             ? what + " where it is seen in a mirror or through glass; a small lamp in place of the light mends that"
+             : what +
+                   fmt::format("; {} cannot find it: use mis+lt, or a small lamp in place of the light", strategy.name);
 }
 
 std::string samples_per_second(const render::RenderResult& result) {

@@ -35,6 +35,9 @@ void warn_if_imprecise(const std::string& path, const render::Scene& scene);
 /// Warns on stderr where a scene means something else in Mitsuba.
 void warn_about_scene_file(const render::SceneFile& file);
 
+/// Names a light and a surface of which a strategy misses light (missing_light()); "" if it misses none.
+std::string missing_light_text(const render::SceneFile& file, const render::Strategy& strategy, int max_depth);
+
 /// "881 ksamples/s" of a render.
 std::string samples_per_second(const render::RenderResult& result);
 

@@ -323,6 +323,29 @@ TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
   for (const auto& p : render::read_image(path("out.pfm")).pixels) EXPECT_TRUE((p == 0).all());
 }
 
+// A plate under a slab of glass, lit by a sun from straight above: no path from the camera finds the sun.
+TEST_F(RenderCommand, SunThroughGlass_IsMissedWithAWarning) {
+  const std::string scene = write("slab.xml", R"(<scene version="0.5.0">
+    <sensor type="perspective"><float name="fov" value="20"/><transform name="toWorld">
+      <lookat origin="0,6,6" target="0,0,0" up="0,1,0"/></transform></sensor>
+    <emitter type="directional" id="sun"><vector name="direction" x="0" y="-1" z="0"/></emitter>
+    <shape type="rectangle"><transform name="toWorld"><rotate x="1" angle="-90"/></transform></shape>
+    <shape type="rectangle" id="slab"><bsdf type="dielectric"/><transform name="toWorld"><rotate x="1" angle="-90"/>
+      <scale value="4"/><translate y="1"/></transform></shape></scene>)");
+  const auto warned = [&](const std::string& options) {
+    return run_carlo("render " + scene + " --spp 2 --size 4x4 -o " + path("out.exr") + options).output;
+  };
+  const std::string words = "light of the directional 'sun' (" + scene +
+                            ":4) by way of smooth surfaces, such as the "
+                            "rectangle 'slab' (" +
+                            scene + ":6), is missing";
+  for (const char* name : {"nee", "mis"}) EXPECT_THAT(warned(std::string(" --strategy ") + name), HasSubstr(words));
+  EXPECT_THAT(warned(" --strategy mis"), HasSubstr("; mis cannot find it: use mis+lt"));
+  EXPECT_THAT(render::read_image(path("out.exr")).metadata.at("carlo.missing_light"), HasSubstr(words));
+  EXPECT_THAT(warned(""), HasSubstr(words + " where it is seen in a mirror or through glass"));
+  EXPECT_THAT(warned(" --strategy mis --max-depth 2"), Not(HasSubstr("missing")));
+}
+
 TEST_F(RenderCommand, StrategyThatMissesLight_IsWarnedAbout) {
   const std::string words = "warning: the strategy light takes directions toward lights";
   EXPECT_THAT(run_carlo("render " + cbox() + " --spp 1 --strategy light").output, HasSubstr(words));

@@ -39,7 +39,9 @@ class Reader {
             {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.aov},
             context_.origin(),
             context_.warnings(),
-            context_.files()};
+            context_.files(),
+            std::move(surface_names_),
+            std::move(light_names_)};
   }
 
  private:
@@ -65,6 +67,12 @@ class Reader {
     Light light = read_plugin(emitter_plugins(), e, context_);
     if (light.is_infinite() && std::exchange(has_background_, true)) e.fail("a second background; only one is allowed");
     context_.builder.add(std::move(light));
+    light_names_.push_back(name_of(e));
+  }
+
+  static std::string name_of(const XmlElement& e) {
+    const std::string id = e.attribute_or("id", "");
+    return fmt::format("{}{} ({})", e.attribute("type"), id.empty() ? "" : " '" + mc::printable(id) + "'", e.where());
   }
 
   void named_bsdf(const XmlElement& e) {
@@ -82,6 +90,8 @@ class Reader {
     for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
     ShapeDescription s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
+    surface_names_.push_back(name_of(e));
+    if (s.emission) light_names_.push_back(name_of(e));
     mc::with_context(e.where(), [&] {
       context_.builder.add(std::move(s.shape),
                            {bsdf, s.emission, s.importance_target, s.interior, s.missing_uv_reason});
@@ -93,6 +103,7 @@ class Reader {
   std::optional<IntegratorSettings> integrator_;
   std::optional<SensorSettings> sensor_;
   bool has_background_ = false;
+  std::vector<std::string> surface_names_, light_names_;
 };
 
 // FloatResolution::ratio of the scene if `origin` were its origin.

@@ -12,7 +12,8 @@ struct Mitsuba : support::SceneTest {};
 std::string gallery(const std::string& name) { return std::string(MC_SOURCE_DIR) + "/librender/scenes/" + name; }
 
 TEST_F(Mitsuba, ReadsTheCornellBoxAsItIs) {
-  const auto [scene, defaults, origin, warnings, files] = render::read_mitsuba(gallery("cbox.xml"));
+  const auto [scene, defaults, origin, warnings, files, surface_names, light_names] =
+      render::read_mitsuba(gallery("cbox.xml"));
   EXPECT_TRUE(origin.isZero());
   EXPECT_EQ(scene.surfaces().size(), 8u);
   ASSERT_EQ(scene.lights().size(), 1u);
@@ -33,7 +34,8 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
   for (const auto& entry : std::filesystem::directory_iterator(gallery(""))) {
     if (entry.path().extension() != ".xml") continue;
     ++scenes;
-    const auto [scene, defaults, origin, warnings, files] = render::read_mitsuba(entry.path().string());
+    const auto [scene, defaults, origin, warnings, files, surface_names, light_names] =
+        render::read_mitsuba(entry.path().string());
     EXPECT_THAT(warnings, testing::IsEmpty()) << "ours say what they mean";
     render::RenderOptions options;
     options.aov = defaults.aov;
@@ -329,7 +331,8 @@ TEST_P(Reference, BlocksAgree) {
   if (!support::has_reference_file(file)) GTEST_SKIP() << "the reference " << file << " is not here";
   if (!std::filesystem::exists(GetParam().path())) GTEST_SKIP() << "the scene " << name << " is not here";
   const render::Image reference = render::read_image(support::reference_file(file));
-  const auto [scene, defaults, origin, warnings, files] = render::read_mitsuba(GetParam().path());
+  const auto [scene, defaults, origin, warnings, files, surface_names, light_names] =
+      render::read_mitsuba(GetParam().path());
   render::RenderOptions options;
   options.width = reference.width;
   options.height = reference.height;
