@@ -202,7 +202,7 @@ mc::Report run_laws(Distribution d, const mc::LawOptions& laws) {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   };
-  options.before_draws = &check_signals;
+  options.statistics.before_draws = &check_signals;
   const py::gil_scoped_release release;
   return mc::check_laws(d, options);
 }
@@ -226,7 +226,7 @@ mc::Report check(const py::object& sampler, const py::object& pdf, const py::obj
   const bool draws = PyCallable_Check(sampler.ptr()) != 0;
   std::string name = s.laws.name;
   if (name.empty()) name = draws ? name_of(sampler) : "samples";
-  if (!draws) return check_array(f, sampler, s.dependent, mc::statistics(s.laws), name);
+  if (!draws) return check_array(f, sampler, s.dependent, s.laws.statistics, name);
   f->sample.emplace(sampler.cast<py::function>(), "check: sample", f->uniforms == 1, f->stop);
   if (!invert.is_none()) f->invert.emplace(invert.cast<py::function>(), "check: invert", f->columns() == 1, f->stop);
   Distribution d = distribution_of(f);
@@ -266,21 +266,21 @@ void bind_check(py::module_& m) {
          const std::string& name) {
         mc::LawOptions laws;
         laws.name = name;
-        laws.samples = samples;
-        laws.seed = seed;
-        laws.alpha = alpha;
+        laws.statistics = {.samples = samples,
+                           .seed = seed,
+                           .alpha = alpha,
+                           .max_evaluations = max_evaluations,
+                           .evidence = evidence,
+                           .open_interval = open_interval};
         laws.invert_eps = invert_eps;
         laws.mass_eps = mass_eps;
-        laws.open_interval = open_interval;
-        laws.max_evaluations = max_evaluations;
-        laws.evidence = evidence;
         return check(sampler, pdf, domain, invert, {laws, uniforms, may_fail, dependent});
       },
       arg("sampler"), arg("pdf") = py::none(), arg("domain") = py::none(), arg("invert") = py::none(), py::kw_only(),
-      arg("samples") = usual.samples, arg("seed") = usual.seed, arg("alpha") = usual.alpha,
-      arg("invert_eps") = usual.invert_eps, arg("mass_eps") = usual.mass_eps, arg("uniforms") = 0,
-      arg("may_fail") = false, arg("open_interval") = false, arg("dependent") = false,
-      arg("max_evaluations") = usual.max_evaluations, arg("evidence") = true, arg("name") = "", check_doc);
+      arg("samples") = usual.statistics.samples, arg("seed") = usual.statistics.seed,
+      arg("alpha") = usual.statistics.alpha, arg("invert_eps") = usual.invert_eps, arg("mass_eps") = usual.mass_eps,
+      arg("uniforms") = 0, arg("may_fail") = false, arg("open_interval") = false, arg("dependent") = false,
+      arg("max_evaluations") = usual.statistics.max_evaluations, arg("evidence") = true, arg("name") = "", check_doc);
 }
 
 } // namespace bindings

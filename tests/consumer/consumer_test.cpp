@@ -18,7 +18,9 @@ mc::Vec3<double> my_sample(mc::Pcg& random) { return mc::CosineHemisphere<double
 double my_pdf(const mc::Vec3<double>& w) { return std::max(w.z(), 0.0) / mc::pi<double>; }
 double wrong_pdf(const mc::Vec3<double>& w) { return w.z() >= 0 ? 1 / (2 * mc::pi<double>) : 0; }
 
-TEST(Consumer, LibraryWarpObeysItsLaws) { EXPECT_WARP_LAWS(mc::CosineHemisphere<float>(), {.samples = 100'000}); }
+TEST(Consumer, LibraryWarpObeysItsLaws) {
+  EXPECT_WARP_LAWS(mc::CosineHemisphere<float>(), {.statistics = {.samples = 100'000}});
+}
 
 TEST(Consumer, OwnSamplerMatchesItsPdf) { EXPECT_SAMPLES_MATCH_PDF(my_sample, my_pdf, mc::Hemisphere<double>()); }
 

@@ -27,8 +27,9 @@ void add_bsdf(Catalogue& c, const std::string& name, const std::string& paramete
         render::Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta))
             .cast<render::Float>();
     one.check = [bsdf, wo, bounds, title = one.title()](const CaseOptions& options) {
-      mc::BsdfOptions o = mc::with_statistics(bounds, options);
+      mc::BsdfOptions o = bounds;
       o.name = title;
+      o.statistics = options;
       return mc::check_bsdf<render::Float>(bsdf, wo, o);
     };
     c.push_back(std::move(one));
@@ -49,7 +50,8 @@ void add_roughness_limit(Catalogue& c, const std::string& name, const std::strin
       report.subject = title;
       report.alpha = options.alpha;
       const render::Vec3 wo = render::Vec3d(std::sin(theta), 0, std::cos(theta)).cast<render::Float>();
-      report.checks = mc::check_roughness_limit<render::Float>(family, family(0), wo, {.bsdf = {.seed = options.seed}});
+      report.checks =
+          mc::check_roughness_limit<render::Float>(family, family(0), wo, {.bsdf = {.statistics = options}});
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       return report;
     };

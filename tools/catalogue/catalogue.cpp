@@ -9,7 +9,8 @@ void add_case(Catalogue& c, std::string name, std::string parameters, std::strin
   Case one{std::move(name), std::move(parameters), std::move(scalar), {}};
   bounds.name = one.title();
   one.check = [make = std::move(make), bounds = std::move(bounds)](const CaseOptions& options) {
-    const mc::LawOptions o = mc::with_statistics(bounds, options);
+    mc::LawOptions o = bounds;
+    o.statistics = options;
     return check_laws(mc::with_tolerances(make(o.name), o), o);
   };
   c.push_back(std::move(one));

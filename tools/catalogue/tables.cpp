@@ -54,7 +54,7 @@ void add_discrete(Catalogue& c, const std::string& name, const std::string& para
                   Make make) {
   Case one{name, parameters, scalar, {}};
   one.check = [title = one.title(), make](const CaseOptions& o) {
-    return mc::check_laws(mc::make_discrete_distribution(title, make()), mc::with_statistics(mc::LawOptions{}, o));
+    return mc::check_laws(mc::make_discrete_distribution(title, make()), {.statistics = o});
   };
   c.push_back(std::move(one));
 }

@@ -95,7 +95,7 @@ TestCase test_case_with_inverse(const mc::AnyDistribution& distribution, double 
   t.check = [counts = t.check, distribution, tolerance](const CaseOptions& c) {
     mc::Report report = counts(c);
     for (mc::Check& check :
-         mc::inverse_law(distribution, {.seed = c.seed, .invert_eps = tolerance / distribution.epsilon()}))
+         mc::inverse_law(distribution, {.statistics = c, .invert_eps = tolerance / distribution.epsilon()}).checks)
       report.checks.insert(report.checks.begin(), std::move(check));
     return report;
   };
@@ -154,7 +154,7 @@ TestCase test_case(const BsdfFunctions& bsdf, double theta_o) {
   const Direction wo = incident(theta_o);
   TestCase t = test_case(mc::bsdf_subject<double>(bsdf, wo));
   t.check = [bsdf, wo](const CaseOptions& c) {
-    return mc::check_bsdf<double>(bsdf, wo, mc::with_statistics(mc::BsdfOptions{.name = ""}, c));
+    return mc::check_bsdf<double>(bsdf, wo, {.name = "", .statistics = c});
   };
   return t;
 }

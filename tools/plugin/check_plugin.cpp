@@ -134,8 +134,7 @@ mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const 
 mc::Report check_plugin(const PluginDistribution& plugin, const std::string& title, const CaseOptions& options) {
   AnyDistribution s = plugin_distribution(plugin, title, options.seed);
   s.ns_per_sample = [&] { return time_of(plugin, s); };
-  const mc::LawOptions bounds{.invert_eps = invert_tolerance(plugin, s.epsilon()) / s.epsilon()};
-  return check_laws(s, mc::with_statistics(bounds, options));
+  return check_laws(s, {.statistics = options, .invert_eps = invert_tolerance(plugin, s.epsilon()) / s.epsilon()});
 }
 
 } // namespace carlo

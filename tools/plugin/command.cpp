@@ -138,13 +138,13 @@ json run_command_task(const json& request, CallMonitor& monitor) {
   const auto program =
       std::make_shared<SamplingProgram>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
                                         parse_domain(text).columns.size(), monitor);
-  auto o = mc::with_statistics(mc::LawOptions(), requested_options(request));
+  CaseOptions o = requested_options(request);
   o.max_evaluations = 1'000'000; // each evaluation is an exchange with the program
   const ParsedDomain domain = charted(*program, text, o.seed);
   AnyDistribution distribution = plugin_distribution(program, domain);
   distribution.breaks = parse_breaks(request["breaks"], domain.chart);
   distribution.name = request["title"];
-  return to_json(check_laws(distribution, o));
+  return to_json(check_laws(distribution, {.statistics = o}));
 }
 
 Case command_case(const CommandDistribution& distribution, const WorkerOptions& worker) {

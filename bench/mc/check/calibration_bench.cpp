@@ -146,7 +146,7 @@ std::string interval(std::size_t hits, std::size_t runs) {
 // Tests a uniform density with samples that have random signs from cell to cell, of the size that the report of correct
 // samples calls detectable. The cells are dyadic with equal mass, so they coincide approximately with the checker's
 // cells. The statement about a single cell holds only for the checker's own cells, which the pilot moves if one is
-// heavier; cell_tests_test.cpp tests it.
+// heavier; run_tests_test.cpp tests it.
 void promise(std::size_t seeds, std::uint64_t samples, std::uint64_t first) {
   const mc::Interval<double> unit(0, 1);
   const auto uniform = [](double) { return 1.0; };

@@ -1,15 +1,10 @@
 #include <mc/check/bsdf_laws.h>
 
-#include <mc/check/laws/law.h>
+#include <mc/check/table.h>
 
 #include <chrono>
 
 namespace mc {
-
-// Each law is one file of laws/bsdf and one row here.
-BsdfLaw bsdf_sign_law, bsdf_support_law, bsdf_reciprocity_law, bsdf_delta_reciprocity_law, bsdf_energy_law;
-constexpr BsdfLaw* laws[] = {bsdf_sign_law, bsdf_support_law, bsdf_reciprocity_law, bsdf_delta_reciprocity_law,
-                             bsdf_energy_law};
 
 namespace {
 
@@ -26,11 +21,12 @@ DirectionPair pair_of(const BsdfView& view, const AnyBsdf::Direction& wi) {
 
 // Evaluates the BSDF at sampled directions and at uniform directions. There is one sampled direction per five requested
 // samples, at most 20000, and one uniform direction per four sampled directions.
-BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
-  BsdfView view{bsdf, wo, options, {}, false};
-  Pcg random(options.seed, 24);
+BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options,
+                   AnyDistribution distribution) {
+  BsdfView view{bsdf, wo, options, std::move(distribution), {}, false};
+  Pcg random(options.statistics.seed, 24);
   const auto next = [&] { return bsdf.is_float ? double(random.uniform<float>()) : random.uniform<double>(); };
-  const int n = static_cast<int>(std::min<std::uint64_t>(options.samples, 100'000) / 5);
+  const int n = static_cast<int>(std::min<std::uint64_t>(options.statistics.samples, 100'000) / 5);
   for (int i = 0; i < n; ++i) {
     const auto drawn = bsdf.sample_next(wo, random);
     if (drawn && wo.z() * drawn->wi.z() < 0) view.transmissive = true;
@@ -43,33 +39,38 @@ BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const Bsdf
   return view;
 }
 
+// The effect of rounding on wi depends on the lobe, not on the position alone.
+Subject without_resolution(Subject s) {
+  s.resolution = {};
+  return s;
+}
+
 } // namespace
 
 Subject bsdf_subject(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options) {
-  Subject s = make_subject(bsdf_distribution(bsdf, wo, options));
-  s.resolution = {}; // the effect of rounding on wi depends on the lobe, not on the position alone
-  return s;
+  return without_resolution(make_subject(bsdf_distribution(bsdf, wo, options)));
 }
 
 Report check_bsdf(const AnyBsdf& given, const Vec3<double>& wo, const BsdfOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   AnyBsdf bsdf = given;
-  bsdf.open_interval = bsdf.open_interval || options.open_interval;
-  Report report = check_subject(bsdf_subject(bsdf, wo, options), statistics(options));
-  for (Check& check : determinism_law(bsdf_distribution(bsdf, wo, options), {.seed = options.seed}))
-    report.checks.push_back(std::move(check));
-  const BsdfView view = view_from(bsdf, wo, options);
-  for (BsdfLaw* law : laws) {
-    BsdfFindings found = law(view);
-    report.checks.insert(report.checks.end(), found.checks.begin(), found.checks.end());
-    report.figures.insert(report.figures.end(), found.figures.begin(), found.figures.end());
-  }
+  bsdf.open_interval = bsdf.open_interval || options.statistics.open_interval;
+  const AnyDistribution distribution = bsdf_distribution(bsdf, wo, options);
+  Report report = check_subject(without_resolution(make_subject(distribution)), options.statistics);
   if (!bsdf.states_value)
     report.untried.push_back({"weight = f |cos wi| / pdf", "a sample states neither f nor weight"});
-  if (!options.reciprocal) report.untried.push_back({"reciprocity", "reciprocal = false"});
+  run_laws(bsdf_laws(), report, view_from(bsdf, wo, options, distribution));
   report.ns_per_sample = bsdf.ns_per_sample(wo);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+std::vector<Check> check_limit(const std::function<AnyBsdf(double r)>& family, const AnyBsdf& limit,
+                               const AnyBsdf::Direction& wo, const RoughnessLimitOptions& options) {
+  require_unit(wo);
+  Report report;
+  run_laws(roughness_laws(), report, {family, limit, wo, options});
+  return report.checks;
 }
 
 } // namespace mc

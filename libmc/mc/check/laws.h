@@ -33,7 +33,7 @@ std::vector<Check> check_deterministic_laws(const AnyDistribution& distribution,
 /// Returns the distribution with the tolerances of `options`, which the statistical tests use too.
 AnyDistribution with_tolerances(AnyDistribution distribution, const LawOptions& options);
 
-/// Tests the deterministic laws, then runs check_subject unless options.samples is 0.
+/// Tests the deterministic laws, then runs check_subject unless options.statistics.samples is 0.
 Report check_laws(const AnyDistribution& distribution, const LawOptions& options = {});
 
 /// The same for a warp, or any struct with Domain, domain(), sample(u) and pdf(x).

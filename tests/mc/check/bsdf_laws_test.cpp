@@ -66,7 +66,7 @@ struct Coated {
   }
 };
 
-mc::Report check(Coated b) { return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.samples = 50'000}); }
+mc::Report check(Coated b) { return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.statistics = {.samples = 50'000}}); }
 
 TEST(BsdfLaws, CorrectBsdf_PassesWithAndWithoutDeltaLobe) {
   EXPECT_TRUE(check({}).passed()) << check({}).to_string();
@@ -105,7 +105,7 @@ TEST(BsdfLaws, PdfZeroWhereFIsPositive_Fails) {
       return s;
     }
   };
-  const mc::Report r = mc::check_bsdf<double>(Half{}, V(0.6, 0, 0.8), {.samples = 50'000});
+  const mc::Report r = mc::check_bsdf<double>(Half{}, V(0.6, 0, 0.8), {.statistics = {.samples = 50'000}});
   EXPECT_EQ(r.fault(), Fault::support) << r.to_string();
 }
 
@@ -139,7 +139,7 @@ struct FourWavelengths {
 
 TEST(BsdfLaws, WrongSingleChannel_Fails) {
   const auto of = [](const FourWavelengths& b) {
-    return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.samples = 20'000});
+    return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.statistics = {.samples = 20'000}});
   };
   EXPECT_TRUE(of({}).passed()) << of({}).to_string();
   EXPECT_TRUE(of({.mirror = true}).passed()) << of({.mirror = true}).to_string();
@@ -182,7 +182,7 @@ struct Glass {
 TEST(BsdfLaws, Refraction_ReciprocityUsesSquaredIndex) {
   for (const V& wo : {V(0.6, 0, 0.8), V(0.3, 0, -std::sqrt(0.91))}) {
     const auto check = [&](Glass g) {
-      return mc::check_bsdf<double>(g, wo, {.samples = 20'000, .eta = 1.5, .lossless = true});
+      return mc::check_bsdf<double>(g, wo, {.statistics = {.samples = 20'000}, .eta = 1.5, .lossless = true});
     };
     EXPECT_TRUE(check({}).passed()) << check({}).to_string();
     EXPECT_TRUE(broken(check({false}), "reciprocity of delta lobes"));
@@ -208,7 +208,7 @@ struct Phase {
 };
 
 TEST(BsdfLaws, PhaseFunction_Passes) {
-  const mc::BsdfOptions options{.samples = 50'000, .cosine = false, .lossless = true};
+  const mc::BsdfOptions options{.statistics = {.samples = 50'000}, .cosine = false, .lossless = true};
   const mc::Report r = mc::check_bsdf<double>(Phase{}, V(0.6, 0, 0.8), options);
   EXPECT_TRUE(r.passed()) << r.to_string();
   EXPECT_NEAR(r.figures[0].value, 1, 1e-12);
@@ -221,7 +221,7 @@ struct NarrowPhase : Phase {
 };
 
 TEST(BsdfLaws, NarrowPhaseFunction_IsReciprocal) {
-  const mc::BsdfOptions options{.samples = 20'000, .cosine = false};
+  const mc::BsdfOptions options{.statistics = {.samples = 20'000}, .cosine = false};
   const mc::Report r = mc::check_bsdf<double>(NarrowPhase{}, V(0.6, 0, 0.8), options);
   for (const mc::Check& c : r.checks)
     if (c.name == "reciprocity") {
@@ -263,7 +263,7 @@ TEST(BsdfLaws, EvalWithCosine_IsComparedWithoutIt) {
   using Kind = WithCosine::Kind;
   for (const V& wo : {V(0.6, 0, 0.8), V(0.6, -0.8, 0), V(0, 0, 1), V(0.28, 0.96 * 0.6, 0.96 * 0.8)}) {
     const auto check = [&](Kind kind, bool cosine) {
-      return mc::check_bsdf<double>(WithCosine{kind}, wo, {.samples = 20'000, .cosine = cosine});
+      return mc::check_bsdf<double>(WithCosine{kind}, wo, {.statistics = {.samples = 20'000}, .cosine = cosine});
     };
     for (const Kind right : {Kind::right, Kind::glossy})
       EXPECT_TRUE(check(right, false).passed()) << check(right, false).to_string();
@@ -280,12 +280,14 @@ TEST(BsdfLaws, PhaseFunctionThatIsNotReciprocal_Fails) {
   struct Skewed : Phase {
     double eval(const V& wo, const V& wi) const { return pdf(wo, wi) * (1 + 0.01 * wo.z()); }
   };
-  const mc::Report r = mc::check_bsdf<double>(Skewed{}, V(0.6, 0, 0.8), {.samples = 20'000, .cosine = false});
+  const mc::Report r =
+      mc::check_bsdf<double>(Skewed{}, V(0.6, 0, 0.8), {.statistics = {.samples = 20'000}, .cosine = false});
   EXPECT_TRUE(broken(r, "reciprocity")) << r.to_string();
 }
 
 TEST(BsdfLaws, SampleWithoutValue_IsListedAsUntriedAndItsEnergyIsTested) {
-  const mc::Report r = mc::check_bsdf<double>(WithCosine{}, V(0.6, 0, 0.8), {.samples = 20'000, .cosine = false});
+  const mc::Report r =
+      mc::check_bsdf<double>(WithCosine{}, V(0.6, 0, 0.8), {.statistics = {.samples = 20'000}, .cosine = false});
   EXPECT_THAT(r.to_string(mc::ReportText::full),
               testing::HasSubstr("not tried: weight = f |cos wi| / pdf (a sample states neither f nor weight)"));
   ASSERT_EQ(r.figures.size(), 2u);
@@ -294,8 +296,9 @@ TEST(BsdfLaws, SampleWithoutValue_IsListedAsUntriedAndItsEnergyIsTested) {
 
 TEST(BsdfLaws, DirectionOfWrongLength_Throws) {
   for (const V& wo : {V(1, 1, 1), V(0.3, 0, 0.4), V(0, 0, 0), V(NAN, 0, 1), V(0, 0, 1.0001)})
-    EXPECT_THROW(mc::check_bsdf<double>(Coated{}, wo, {.samples = 1000}), mc::Error);
-  EXPECT_TRUE(mc::check_bsdf<double>(Coated{}, V(0.577350, 0.577350, 0.577350), {.samples = 20'000}).passed());
+    EXPECT_THROW(mc::check_bsdf<double>(Coated{}, wo, {.statistics = {.samples = 1000}}), mc::Error);
+  EXPECT_TRUE(
+      mc::check_bsdf<double>(Coated{}, V(0.577350, 0.577350, 0.577350), {.statistics = {.samples = 20'000}}).passed());
 }
 
 } // namespace

@@ -17,7 +17,7 @@ constexpr mc::LawOptions cheap_options() { return {}; }
 
 mc::LawOptions cheap() {
   mc::LawOptions o = cheap_options();
-  o.samples = 20'000;
+  o.statistics.samples = 20'000;
   o.points = 64;
   return o;
 }
@@ -152,9 +152,9 @@ template <class S> struct TiltedCosine {
 TEST(Laws, PointsRoundedOverDensityEdge_AreMeasureZero) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     mc::LawOptions o = cheap();
-    o.seed = seed;
-    o.open_interval = true;
-    o.alpha = 1e-4; // for each of 40 reports
+    o.statistics.seed = seed;
+    o.statistics.open_interval = true;
+    o.statistics.alpha = 1e-4; // for each of 40 reports
     EXPECT_TRUE(check_laws(TiltedCosine<double>{}, o).passed()) << seed;
     EXPECT_TRUE(check_laws(TiltedCosine<float>{}, o).passed()) << seed;
   }
@@ -162,7 +162,7 @@ TEST(Laws, PointsRoundedOverDensityEdge_AreMeasureZero) {
 
 TEST(Laws, NoSamples_SkipsStatisticalTests) {
   mc::LawOptions o = cheap();
-  o.samples = 0;
+  o.statistics.samples = 0;
   const mc::Report r = check_laws(mc::CosineHemisphere<double>{}, o);
   EXPECT_TRUE(r.passed());
   EXPECT_EQ(r.checks.size(), 11u);

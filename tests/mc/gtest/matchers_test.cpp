@@ -14,11 +14,12 @@ using testing::HasSubstr;
 TEST(Matchers, WarpLaws) {
   EXPECT_WARP_LAWS(mc::UniformDisk<double>{});
   mc::LawOptions few;
-  few.samples = 20'000;
+  few.statistics.samples = 20'000;
   EXPECT_WARP_LAWS(mc::CosineHemisphere<float>{}, few);
 }
 
-// A grey diffuse BSDF with the given albedo. Its samples state the value for `stated`, which is wrong if it differs.
+// A grey diffuse BSDF with the given albedo. Its samples state the value for
+// `stated`, which is wrong if it differs.
 struct Grey {
   struct Sample {
     mc::Vec3<double> wi;
@@ -39,7 +40,7 @@ struct Grey {
 
 TEST(Matchers, BsdfLaws) {
   const mc::Vec3<double> wo(0.6, 0, 0.8);
-  const mc::BsdfOptions few{.samples = 20'000};
+  const mc::BsdfOptions few{.statistics = {.samples = 20'000}};
   EXPECT_BSDF_LAWS((Grey{0.5, 0.5}), wo, few);
   EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{0.5, 0.6}, wo, few).message(),
               testing::AllOf(testing::StartsWith("grey, wo = (0.6, 0, 0.8): fail: f is 0.19"),
@@ -48,7 +49,8 @@ TEST(Matchers, BsdfLaws) {
   EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{1.1, 1.1}, wo, few).message(), HasSubstr("energy <= 1"));
 }
 
-// The same grey as renderers write it that return f |cos wi|, with the weight f |cos wi| / pdf.
+// The same grey as renderers write it that return f |cos wi|, with the weight f
+// |cos wi| / pdf.
 struct GreyWithCosine : Grey {
   struct Sample {
     mc::Vec3<double> wi;
@@ -67,17 +69,17 @@ struct GreyWithCosine : Grey {
 TEST(Matchers, ABsdfWithTheCosine_PassesWithItsOptionsAndIsRecognisedWithout) {
   const mc::Vec3<double> wo(0.6, 0, 0.8);
   const GreyWithCosine grey{{0.5, 0.5}};
-  EXPECT_BSDF_LAWS(grey, wo, {.samples = 20'000, .reciprocal = false, .cosine = false});
-  const mc::BsdfOptions few{.samples = 20'000};
+  EXPECT_BSDF_LAWS(grey, wo, {.statistics = {.samples = 20'000}, .reciprocal = false, .cosine = false});
+  const mc::BsdfOptions few{.statistics = {.samples = 20'000}};
   EXPECT_THAT(mc::obeys_bsdf_laws("grey", grey, wo, few).message(),
               testing::AllOf(testing::ContainsRegex("fail: weight is 0.5, should be 0[.][0-9]+, at u = "),
                              HasSubstr("eval seems to include it: set .cosine = false")));
-  EXPECT_BSDF_LAWS(grey, wo, {.samples = 20'000, .cosine = false});
+  EXPECT_BSDF_LAWS(grey, wo, {.statistics = {.samples = 20'000}, .cosine = false});
 }
 
 TEST(Matchers, DirectionOfWrongLength_FailsWithItsLength) {
   const mc::Vec3<double> wo(1, 0, 1);
-  EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{0.5, 0.5}, wo, {.samples = 20'000}).message(),
+  EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{0.5, 0.5}, wo, {.statistics = {.samples = 20'000}}).message(),
               HasSubstr("wo = (1, 0, 1) has length 1.41421356, should be 1"));
 }
 
@@ -89,10 +91,10 @@ TEST(Matchers, SamplesMatchPdf) {
   const testing::AssertionResult wrong = mc::samples_match_pdf(
       "sampler", sampler, [](double x) { return 3 * x * x; }, mc::Interval<double>(0, 1), few);
   EXPECT_FALSE(wrong);
-  EXPECT_THAT(
-      wrong.message(),
-      testing::AllOf(testing::StartsWith("sampler: fail, p < 1e-300 (50000 samples, alpha 0.001): region x 0 to "),
-                     HasSubstr(" expected (z = "), HasSubstr("likely cause: shape"), HasSubstr(" more checks fail")));
+  EXPECT_THAT(wrong.message(), testing::AllOf(testing::StartsWith("sampler: fail, p < 1e-300 (50000 "
+                                                                  "samples, alpha 0.001): region x 0 to "),
+                                              HasSubstr(" expected (z = "), HasSubstr("likely cause: shape"),
+                                              HasSubstr(" more checks fail")));
 }
 
 TEST(Matchers, Mean) {

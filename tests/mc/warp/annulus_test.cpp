@@ -13,7 +13,7 @@ TYPED_TEST(AnnulusOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const double inner : {0.0, 0.5, 0.99})
     EXPECT_WARP_LAWS(UniformAnnulus<S>(S(inner), 1), {.name = fmt::format("inner {}", inner),
-                                                      .samples = 0,
+                                                      .statistics = {.samples = 0},
                                                       .points = 64,
                                                       .invert_eps = 8 / (1 - inner),
                                                       .pdf_eps = 8});

@@ -10,7 +10,7 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(BallOver, Scalars);
 
 TYPED_TEST(BallOver, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(UniformBall<TypeParam>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 4});
+  EXPECT_WARP_LAWS(UniformBall<TypeParam>{}, {.statistics = {.samples = 50'000}, .invert_eps = 8, .pdf_eps = 4});
 }
 
 // E |p|^2 = 3/5. Alpha 1e-3, fixed seed.

@@ -15,7 +15,7 @@ TYPED_TEST(BeckmannNormalsOver, ObeysTheLaws) {
   for (const double a : {1e-4, 1e-2, 0.3, 1.0}) {
     const BeckmannNormals<S> warp(S(a), S(0.5 * a));
     EXPECT_WARP_LAWS(warp, {.name = fmt::format("alpha {}", a),
-                            .samples = a >= 0.3 ? 50'000u : 0u,
+                            .statistics = {.samples = a >= 0.3 ? 50'000u : 0u},
                             .invert_eps = 16,
                             .sample_eps = 16,
                             .pdf_eps = 56});

@@ -20,9 +20,11 @@ TYPED_TEST(BilinearOver, ObeysTheLawsWithZeroEdgesAndHugeWeights) {
                                          {0., 1., 0., 1.},
                                          {1e30, 1., 1e30, 0.},
                                          {1e30, 1e30, 1e30, 1e30}})
-    EXPECT_WARP_LAWS(
-        Bilinear<S>(S(w[0]), S(w[1]), S(w[2]), S(w[3])),
-        {.name = fmt::format("{} {} {} {}", w[0], w[1], w[2], w[3]), .samples = 0, .points = 64, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(Bilinear<S>(S(w[0]), S(w[1]), S(w[2]), S(w[3])),
+                     {.name = fmt::format("{} {} {} {}", w[0], w[1], w[2], w[3]),
+                      .statistics = {.samples = 0},
+                      .points = 64,
+                      .pdf_eps = 16});
 }
 
 TEST(Bilinear, RefusesNonsense) {

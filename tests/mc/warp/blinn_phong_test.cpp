@@ -14,7 +14,7 @@ TYPED_TEST(BlinnPhongOver, ObeysTheLaws) {
   for (const double n : {0.0, 0.5, 1.0, 10.0, 1e3, 1e7}) {
     const BlinnPhong<S> warp{S(n)};
     EXPECT_WARP_LAWS(warp, {.name = fmt::format("n {}", n),
-                            .samples = n <= 10 ? 50'000u : 0u,
+                            .statistics = {.samples = n <= 10 ? 50'000u : 0u},
                             .invert_eps = 16,
                             .sample_eps = 16,
                             .pdf_eps = 32});

@@ -12,8 +12,9 @@ TYPED_TEST_SUITE(ConeOver, Scalars);
 TYPED_TEST(ConeOver, ObeysTheLawsAtAnyAngle) {
   using S = TypeParam;
   for (const double angle : {1e-9, 1e-5, 0.01, 1.0, 3.0, 3.14159})
-    EXPECT_WARP_LAWS(UniformCone<S>::from_angle(S(angle)),
-                     {.name = fmt::format("angle {}", angle), .samples = 0, .invert_eps = 16, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(
+        UniformCone<S>::from_angle(S(angle)),
+        {.name = fmt::format("angle {}", angle), .statistics = {.samples = 0}, .invert_eps = 16, .pdf_eps = 16});
 }
 
 // A cone of 1e-9 rad has a solid angle of pi 1e-18 sr. A cone stored by its rounded cosine would have none.

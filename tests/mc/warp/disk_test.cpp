@@ -7,13 +7,17 @@ namespace {
 
 // Deterministic laws with the bounds of the contract. The statistical tests run over the whole catalogue.
 TEST(UniformDisk, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(UniformDisk<float>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
-  EXPECT_WARP_LAWS(UniformDisk<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformDisk<float>{},
+                   {.statistics = {.samples = 50'000}, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformDisk<double>{},
+                   {.statistics = {.samples = 50'000}, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
 }
 
 TEST(UniformDiskPolar, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(UniformDiskPolar<float>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
-  EXPECT_WARP_LAWS(UniformDiskPolar<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformDiskPolar<float>{},
+                   {.statistics = {.samples = 50'000}, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformDiskPolar<double>{},
+                   {.statistics = {.samples = 50'000}, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
 }
 
 // At the rim the polar map stretches a side of one of 16 x 16 cells to 2 pi / 16, the concentric map to at most 0.16.

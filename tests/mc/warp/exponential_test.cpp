@@ -14,17 +14,19 @@ TYPED_TEST_SUITE(ExponentialOver, Scalars);
 TYPED_TEST(ExponentialOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const double rate : {1e-20, 1.0, 1e20})
-    EXPECT_WARP_LAWS(
-        Exponential<S>(S(rate)),
-        {.name = fmt::format("rate {}", rate), .samples = rate == 1 ? 50'000u : 0u, .invert_eps = 8, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(Exponential<S>(S(rate)), {.name = fmt::format("rate {}", rate),
+                                               .statistics = {.samples = rate == 1 ? 50'000u : 0u},
+                                               .invert_eps = 8,
+                                               .pdf_eps = 16});
 }
 
 TYPED_TEST(ExponentialOver, TrimmedObeysTheLawsFromFlatToSteep) {
   using S = TypeParam;
   for (const double rate : {0.0, 1e-12, 1e-3, 1.0, 10.0, 1e3, -1e-3, -1.0, -10.0, -1e3})
-    EXPECT_WARP_LAWS(
-        TrimmedExponential<S>(S(rate), S(2)),
-        {.name = fmt::format("rate {}", rate), .samples = 0, .invert_eps = std::max(16.0, -2 * rate), .pdf_eps = 16});
+    EXPECT_WARP_LAWS(TrimmedExponential<S>(S(rate), S(2)), {.name = fmt::format("rate {}", rate),
+                                                            .statistics = {.samples = 0},
+                                                            .invert_eps = std::max(16.0, -2 * rate),
+                                                            .pdf_eps = 16});
 }
 
 TEST(TrimmedExponential, IsTheExponentialGivenTheInterval) {

@@ -21,7 +21,7 @@ TYPED_TEST_SUITE(HalfVectorOver, Scalars);
 // tested separately below.
 LawOptions deterministic(std::string name, double sample_eps = 64, double pdf_eps = 64) {
   return {.name = std::move(name),
-          .samples = 0,
+          .statistics = {.samples = 0},
           .points = 32,
           .invert_eps = HUGE_VAL,
           .sample_eps = sample_eps,

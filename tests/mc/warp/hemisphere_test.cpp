@@ -11,8 +11,8 @@ TYPED_TEST_SUITE(HemisphereOver, Scalars);
 
 TYPED_TEST(HemisphereOver, ObeysTheLaws) {
   using S = TypeParam;
-  EXPECT_WARP_LAWS(UniformHemisphere<S>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 2});
-  EXPECT_WARP_LAWS(CosineHemisphere<S>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(UniformHemisphere<S>{}, {.statistics = {.samples = 50'000}, .invert_eps = 8, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(CosineHemisphere<S>{}, {.statistics = {.samples = 50'000}, .invert_eps = 8, .pdf_eps = 16});
 }
 
 TYPED_TEST(HemisphereOver, NothingBelowTheHorizon) {

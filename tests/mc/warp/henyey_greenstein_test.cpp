@@ -14,7 +14,7 @@ TYPED_TEST(HenyeyGreensteinOver, ObeysTheLaws) {
   for (const double g : {-0.9999, -0.5, 0.0, 1e-9, 0.5, 0.9}) {
     const HenyeyGreenstein<S> warp{S(g)};
     EXPECT_WARP_LAWS(warp, {.name = fmt::format("g {}", g),
-                            .samples = std::abs(g) <= 0.9 ? 50'000u : 0u,
+                            .statistics = {.samples = std::abs(g) <= 0.9 ? 50'000u : 0u},
                             .invert_eps = 16 / (1 - std::abs(g)),
                             .pdf_eps = 16});
   }
@@ -24,9 +24,11 @@ TYPED_TEST(HenyeyGreensteinOver, IsNotClampedNearOne) {
   using S = TypeParam;
   for (const double h : {1e-2, 1e-4, 1e-6}) {
     const auto warp = HenyeyGreenstein<S>::from_one_minus_abs_g(S(h));
-    EXPECT_WARP_LAWS(
-        warp,
-        {.name = fmt::format("1 - g = {}", h), .samples = 0, .invert_eps = 16 / h, .sample_eps = 16, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(warp, {.name = fmt::format("1 - g = {}", h),
+                            .statistics = {.samples = 0},
+                            .invert_eps = 16 / h,
+                            .sample_eps = 16,
+                            .pdf_eps = 16});
     EXPECT_NEAR(double(warp.pdf({0, 0, 1})) * 4 * std::numbers::pi * h * h / (2 - h), 1,
                 16 * double(std::numeric_limits<S>::epsilon()));
   }

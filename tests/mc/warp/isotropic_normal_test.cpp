@@ -12,9 +12,11 @@ TYPED_TEST_SUITE(IsotropicNormalOver, Scalars);
 TYPED_TEST(IsotropicNormalOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const double sigma : {1e-4, 1.0, 3.0})
-    EXPECT_WARP_LAWS(
-        IsotropicNormal<S>(S(sigma)),
-        {.name = fmt::format("sigma {}", sigma), .samples = 0, .points = 64, .invert_eps = 8, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(IsotropicNormal<S>(S(sigma)), {.name = fmt::format("sigma {}", sigma),
+                                                    .statistics = {.samples = 0},
+                                                    .points = 64,
+                                                    .invert_eps = 8,
+                                                    .pdf_eps = 16});
 }
 
 TEST(IsotropicNormal, IsSafeAtZero) { EXPECT_EQ(IsotropicNormal<float>{}.sample({0, 0}), Vec2<float>(0, 0)); }

@@ -13,7 +13,7 @@ TYPED_TEST(LinearOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const auto& [a, b] : {std::pair{1.0, 1.0}, {0.0, 1.0}, {3.0, 1.0}, {1e-30, 1e30}, {1e30, 1e30}})
     EXPECT_WARP_LAWS(Linear<S>(S(a), S(b)), {.name = fmt::format("{} to {}", a, b),
-                                             .samples = a <= 3 ? 50'000u : 0u,
+                                             .statistics = {.samples = a <= 3 ? 50'000u : 0u},
                                              .invert_eps = 8,
                                              .sample_eps = 8,
                                              .pdf_eps = 16});

@@ -14,9 +14,10 @@ TYPED_TEST_SUITE(LogisticOver, Scalars);
 TYPED_TEST(LogisticOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const double scale : {1e-4, 1.0, 1e4})
-    EXPECT_WARP_LAWS(
-        Logistic<S>(0, S(scale)),
-        {.name = fmt::format("scale {}", scale), .samples = scale == 1 ? 50'000u : 0u, .invert_eps = 8, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(Logistic<S>(0, S(scale)), {.name = fmt::format("scale {}", scale),
+                                                .statistics = {.samples = scale == 1 ? 50'000u : 0u},
+                                                .invert_eps = 8,
+                                                .pdf_eps = 16});
 }
 
 TYPED_TEST(LogisticOver, TrimmedObeysTheLawsInTailsAndOnShortIntervals) {
@@ -30,7 +31,7 @@ TYPED_TEST(LogisticOver, TrimmedObeysTheLawsInTailsAndOnShortIntervals) {
                                {-300.0, 300.0}}) {
     const double condition = std::max({1.0, std::abs(lo), std::abs(hi)}) / (hi - lo);
     EXPECT_WARP_LAWS(TrimmedLogistic<S>(1, S(lo), S(hi)), {.name = fmt::format("[{}, {}]", lo, hi),
-                                                           .samples = 0,
+                                                           .statistics = {.samples = 0},
                                                            .invert_eps = 8 * std::max(1.0, condition),
                                                            .pdf_eps = 64});
   }
@@ -46,7 +47,7 @@ TYPED_TEST(LogisticOver, TrimmedToATailAsThinAsTheScalarAllows) {
       // Fewer than 128 steps are too few for two cells.
       const S steps = (b - a) / (std::numeric_limits<S>::epsilon() * S(lo));
       EXPECT_WARP_LAWS(TrimmedLogistic<S>(1, a, b), {.name = fmt::format("[{}, {}]", a, b),
-                                                     .samples = steps < 128 ? 0u : 20'000u,
+                                                     .statistics = {.samples = steps < 128 ? 0u : 20'000u},
                                                      .invert_eps = 8 * (lo + length) / std::min(1.0, length),
                                                      .pdf_eps = 64});
     }

@@ -27,8 +27,9 @@ template <class S, class C> auto cones(const C& choice) {
 
 TYPED_TEST(MixtureNOver, ObeysTheLaws) {
   using S = TypeParam;
-  EXPECT_WARP_LAWS(cones<S>(UniformDiscrete<S>(3)), {.samples = 50'000, .sample_eps = 64});
-  EXPECT_WARP_LAWS(cones<S>(TableDist1D<S>(std::vector<double>{1, 0, 5, 2})), {.samples = 50'000, .sample_eps = 64});
+  EXPECT_WARP_LAWS(cones<S>(UniformDiscrete<S>(3)), {.statistics = {.samples = 50'000}, .sample_eps = 64});
+  EXPECT_WARP_LAWS(cones<S>(TableDist1D<S>(std::vector<double>{1, 0, 5, 2})),
+                   {.statistics = {.samples = 50'000}, .sample_eps = 64});
 }
 
 // The pixel filter of smallpt on one axis: tents about the centres of the halves of a pixel.
@@ -38,7 +39,7 @@ TYPED_TEST(MixtureNOver, TentsObeyTheLaws) {
     std::vector<Tent<S>> tents;
     for (int i = 0; i < n; ++i) tents.emplace_back((S(i) + S(0.5)) / S(n) - S(0.5), S(0.5));
     EXPECT_WARP_LAWS(MixtureN(Interval<S>(-1, 1), UniformDiscrete<S>(std::size_t(n)), tents),
-                     {.name = fmt::format("{} tents", n), .samples = 50'000});
+                     {.name = fmt::format("{} tents", n), .statistics = {.samples = 50'000}});
   }
 }
 

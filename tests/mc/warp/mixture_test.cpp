@@ -15,8 +15,8 @@ template <class S> auto half_and_half(S a, S b) {
 TEST(Mixture, ObeysTheLaws) {
   // Stretching u0 magnifies its rounding by 1 / weight, and by more at the rim of the cosine lobe: 64 eps of the
   // sample.
-  EXPECT_WARP_LAWS(half_and_half(0.3f, 0.7f), {.samples = 50'000, .sample_eps = 64, .pdf_eps = 16});
-  EXPECT_WARP_LAWS(half_and_half(0.3, 0.7), {.samples = 50'000, .sample_eps = 64, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(half_and_half(0.3f, 0.7f), {.statistics = {.samples = 50'000}, .sample_eps = 64, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(half_and_half(0.3, 0.7), {.statistics = {.samples = 50'000}, .sample_eps = 64, .pdf_eps = 16});
 }
 
 TEST(Mixture, WeightsNeedNotSumToOneAndMayBeZero) {
@@ -30,7 +30,7 @@ TEST(Mixture, WeightsNeedNotSumToOneAndMayBeZero) {
 
 TEST(Mixture, ThreeComponentsInOneDimension) {
   const Mixture mixture(std::array{1.0, 2.0, 1.0}, Tent<double>(0, 1), Tent<double>(0, 1), Tent<double>(0, 1));
-  EXPECT_WARP_LAWS(mixture, {.samples = 50'000, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(mixture, {.statistics = {.samples = 50'000}, .pdf_eps = 16});
 }
 
 TEST(Mixture, WeightsMayBeAsLargeOrSmallAsTheScalarGoes) {

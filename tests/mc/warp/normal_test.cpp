@@ -14,7 +14,7 @@ TYPED_TEST(NormalOver, ObeysTheLaws) {
   // Up to 8 sigma the density has condition number 1 + t^2 = 65.
   for (const double sigma : {1e-10, 1.0, 1e10})
     EXPECT_WARP_LAWS(Normal<S>(S(0), S(sigma)), {.name = fmt::format("sigma {}", sigma),
-                                                 .samples = sigma == 1.0 ? 50'000u : 0u,
+                                                 .statistics = {.samples = sigma == 1.0 ? 50'000u : 0u},
                                                  .invert_eps = 16,
                                                  .sample_eps = 16,
                                                  .pdf_eps = 80});

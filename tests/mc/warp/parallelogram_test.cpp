@@ -12,7 +12,7 @@ TYPED_TEST_SUITE(ParallelogramOver, Scalars);
 TYPED_TEST(ParallelogramOver, ObeysTheLaws) {
   using S = TypeParam;
   const UniformParallelogram<S> warp{{Vec3<S>(0, 0, 0), Vec3<S>(1, 2, 3), Vec3<S>(-1, 0, S(0.5))}};
-  EXPECT_WARP_LAWS(warp, {.samples = 0, .points = 64, .invert_eps = 16, .pdf_eps = 8});
+  EXPECT_WARP_LAWS(warp, {.statistics = {.samples = 0}, .points = 64, .invert_eps = 16, .pdf_eps = 8});
 }
 
 TEST(UniformParallelogram, DensityIsOneOverTheArea) {

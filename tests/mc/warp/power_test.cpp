@@ -12,9 +12,10 @@ TYPED_TEST_SUITE(PowerOver, Scalars);
 TYPED_TEST(PowerOver, ObeysTheLaws) {
   using S = TypeParam;
   for (const double n : {0.0, 0.5, 1.0, 10.0, 1e3})
-    EXPECT_WARP_LAWS(
-        Power<S>(S(n)),
-        {.name = fmt::format("n {}", n), .samples = n == 10 ? 50'000u : 0u, .invert_eps = 8 + n / 2, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(Power<S>(S(n)), {.name = fmt::format("n {}", n),
+                                      .statistics = {.samples = n == 10 ? 50'000u : 0u},
+                                      .invert_eps = 8 + n / 2,
+                                      .pdf_eps = 16});
 }
 
 TEST(Power, RefusesNonsense) {

@@ -13,8 +13,8 @@ TYPED_TEST_SUITE(ProductOver, Scalars);
 TYPED_TEST(ProductOver, ObeysTheLaws) {
   using S = TypeParam;
   EXPECT_WARP_LAWS((Tent2D<S>{Tent<S>(0, 1), Tent<S>(0, S(1e-3))}),
-                   {.name = "2-D tent", .samples = 0, .points = 64, .invert_eps = 8, .pdf_eps = 16});
-  EXPECT_WARP_LAWS(Normal2D<S>{}, {.name = "2-D normal", .samples = 0, .points = 64, .pdf_eps = 32});
+                   {.name = "2-D tent", .statistics = {.samples = 0}, .points = 64, .invert_eps = 8, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(Normal2D<S>{}, {.name = "2-D normal", .statistics = {.samples = 0}, .points = 64, .pdf_eps = 32});
 }
 
 TEST(Product, JoinsPointsOfAnyDimension) {

@@ -22,11 +22,11 @@ TYPED_TEST(RotatedOver, ObeysTheLawsAboutAnyAxis) {
   using S = TypeParam;
   for (const Vec3<S>& n : axes<S>()) {
     EXPECT_WARP_LAWS(Rotated(CosineHemisphere<S>{}, n),
-                     {.name = "cosine", .samples = 0, .points = 64, .invert_eps = 64, .pdf_eps = 128});
+                     {.name = "cosine", .statistics = {.samples = 0}, .points = 64, .invert_eps = 64, .pdf_eps = 128});
     EXPECT_WARP_LAWS(Rotated(UniformHemisphere<S>{}, n),
-                     {.name = "uniform", .samples = 0, .points = 64, .invert_eps = 256, .pdf_eps = 8});
+                     {.name = "uniform", .statistics = {.samples = 0}, .points = 64, .invert_eps = 256, .pdf_eps = 8});
     EXPECT_WARP_LAWS(Rotated(UniformCone<S>::from_angle(S(0.5)), n),
-                     {.name = "cone", .samples = 0, .points = 64, .invert_eps = 512, .pdf_eps = 8});
+                     {.name = "cone", .statistics = {.samples = 0}, .points = 64, .invert_eps = 512, .pdf_eps = 8});
   }
 }
 

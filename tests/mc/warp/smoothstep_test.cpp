@@ -10,7 +10,7 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SmoothstepOver, Scalars);
 
 TYPED_TEST(SmoothstepOver, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(Smoothstep<TypeParam>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(Smoothstep<TypeParam>{}, {.statistics = {.samples = 50'000}, .invert_eps = 8, .pdf_eps = 16});
 }
 
 TEST(Smoothstep, KnownValues) {

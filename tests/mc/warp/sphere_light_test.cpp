@@ -15,7 +15,7 @@ TYPED_TEST(SphereLightOver, ObeysTheLawsAtEveryDistance) {
   for (const double radius : {1e-15, 1e-8, 1e-3, 0.5, 0.999999, 1.0, 1.5}) {
     const SphereLight<S> warp({S(0), S(1), S(0)}, S(radius));
     EXPECT_WARP_LAWS(warp, {.name = fmt::format("radius {}", radius),
-                            .samples = radius >= 0.5 ? 20'000u : 0u,
+                            .statistics = {.samples = radius >= 0.5 ? 20'000u : 0u},
                             .invert_eps = 16,
                             .sample_eps = 16,
                             .pdf_eps = 16});

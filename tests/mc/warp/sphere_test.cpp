@@ -6,8 +6,8 @@ namespace mc {
 namespace {
 
 TEST(UniformSphere, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(UniformSphere<float>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 2});
-  EXPECT_WARP_LAWS(UniformSphere<double>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformSphere<float>{}, {.statistics = {.samples = 50'000}, .invert_eps = 8, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformSphere<double>{}, {.statistics = {.samples = 50'000}, .invert_eps = 8, .pdf_eps = 2});
 }
 
 // The integral of cos^2 over the sphere is 4 pi / 3. Alpha 1e-3, fixed seed.

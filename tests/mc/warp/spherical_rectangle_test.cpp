@@ -18,7 +18,7 @@ TYPED_TEST(SphericalRectangleOver, ObeysTheLawsFromHugeToTiny) {
                                        Vec3<S>(S(edge), S(0.1 * edge), S(-0.2 * edge)),
                                        Vec3<S>(S(0.3 * edge), S(aspect * edge), S(0.05 * edge)));
       EXPECT_WARP_LAWS(warp, {.name = fmt::format("edge {}, aspect {}", edge, aspect),
-                              .samples = edge >= 1 ? 20'000u : 0u,
+                              .statistics = {.samples = edge >= 1 ? 20'000u : 0u},
                               .invert_eps = 6400 / std::min(1.0, edge) / std::abs(aspect),
                               .sample_eps = edge > 1 ? 64.0 : 16.0,
                               .pdf_eps = 16});

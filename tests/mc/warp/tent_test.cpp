@@ -14,7 +14,7 @@ TYPED_TEST(TentOver, ObeysTheLaws) {
   // The error of a sample is relative to the radius; the law states it relative to max(1, |x|).
   for (const double radius : {1e-20, 0.5, 1e20})
     EXPECT_WARP_LAWS(Tent<S>(S(0), S(radius)), {.name = fmt::format("radius {}", radius),
-                                                .samples = radius == 0.5 ? 50'000u : 0u,
+                                                .statistics = {.samples = radius == 0.5 ? 50'000u : 0u},
                                                 .invert_eps = 8,
                                                 .sample_eps = 8 * std::max(1.0, radius),
                                                 .pdf_eps = 16});

@@ -6,8 +6,8 @@ namespace mc {
 namespace {
 
 TEST(UniformTriangle, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(UniformTriangle<float>{}, {.samples = 50'000, .invert_eps = 4, .pdf_eps = 1});
-  EXPECT_WARP_LAWS(UniformTriangle<double>{}, {.samples = 50'000, .invert_eps = 4, .pdf_eps = 1});
+  EXPECT_WARP_LAWS(UniformTriangle<float>{}, {.statistics = {.samples = 50'000}, .invert_eps = 4, .pdf_eps = 1});
+  EXPECT_WARP_LAWS(UniformTriangle<double>{}, {.statistics = {.samples = 50'000}, .invert_eps = 4, .pdf_eps = 1});
 }
 
 TEST(UniformTriangle, NeighboursStayNeighbours) {

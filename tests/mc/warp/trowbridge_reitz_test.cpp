@@ -23,8 +23,10 @@ TYPED_TEST(TrowbridgeReitz, NormalsObeyTheLaws) {
   for (const double a : {1e-4, 1e-3, 0.1, 1.0}) {
     const double other = a < 1e-3 ? 1e-2 : 0.5 * a;
     const TrowbridgeReitzNormals<S> warp{S(a), S(other)};
-    EXPECT_WARP_LAWS(
-        warp, {.name = fmt::format("alpha {}", a), .samples = a >= 0.1 ? few : 0, .invert_eps = 16, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(warp, {.name = fmt::format("alpha {}", a),
+                            .statistics = {.samples = a >= 0.1 ? few : 0},
+                            .invert_eps = 16,
+                            .pdf_eps = 16});
   }
 }
 
@@ -34,7 +36,7 @@ TYPED_TEST(TrowbridgeReitz, VisibleNormalsObeyTheLawsAtEveryIncidence) {
     for (const double degrees : {0.0, 0.01, 45.0, 89.9, 90.0}) {
       const TrowbridgeReitzVisibleNormals<S> warp(at<S>(degrees, 0.7), S(a), S(0.3 * a));
       EXPECT_WARP_LAWS(warp, {.name = fmt::format("alpha {}, {} degrees", a, degrees),
-                              .samples = a == 1 ? few : 0,
+                              .statistics = {.samples = a == 1 ? few : 0},
                               .invert_eps = 512,
                               .sample_eps = 64,
                               .pdf_eps = 16});

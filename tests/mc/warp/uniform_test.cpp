@@ -11,16 +11,17 @@ TYPED_TEST_SUITE(UniformOver, Scalars);
 
 TYPED_TEST(UniformOver, IntervalObeysTheLaws) {
   using S = TypeParam;
-  EXPECT_WARP_LAWS(UniformInterval<S>{}, {.samples = 20'000, .invert_eps = 4});
-  EXPECT_WARP_LAWS((UniformInterval<S>{S(-0.5), S(0.5)}), {.samples = 20'000, .invert_eps = 4});
-  EXPECT_WARP_LAWS((UniformInterval<S>{S(100), S(101)}), {.samples = 0, .invert_eps = 404});
+  EXPECT_WARP_LAWS(UniformInterval<S>{}, {.statistics = {.samples = 20'000}, .invert_eps = 4});
+  EXPECT_WARP_LAWS((UniformInterval<S>{S(-0.5), S(0.5)}), {.statistics = {.samples = 20'000}, .invert_eps = 4});
+  EXPECT_WARP_LAWS((UniformInterval<S>{S(100), S(101)}), {.statistics = {.samples = 0}, .invert_eps = 404});
 }
 
 TYPED_TEST(UniformOver, BoxObeysTheLaws) {
   using S = TypeParam;
   EXPECT_WARP_LAWS((UniformBox<S, 2>{Vec2<S>(S(-0.5), S(-0.5)), Vec2<S>(S(0.5), S(0.5))}),
-                   {.samples = 20'000, .invert_eps = 4});
-  EXPECT_WARP_LAWS((UniformBox<S, 3>{Vec3<S>(-3, 0, 1), Vec3<S>(-1, 1, 2)}), {.samples = 20'000, .invert_eps = 8});
+                   {.statistics = {.samples = 20'000}, .invert_eps = 4});
+  EXPECT_WARP_LAWS((UniformBox<S, 3>{Vec3<S>(-3, 0, 1), Vec3<S>(-1, 1, 2)}),
+                   {.statistics = {.samples = 20'000}, .invert_eps = 8});
 }
 
 TEST(Uniform, RefusesNonsense) {

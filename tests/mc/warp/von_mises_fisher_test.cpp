@@ -15,7 +15,7 @@ TYPED_TEST(VonMisesFisherOver, ObeysTheLawsFromUniformToNeedle) {
   for (const double kappa : {0.0, 1e-9, 1e-3, 1.0, 3.0, 5.0, 30.0, 1e4, 1e8}) {
     const VonMisesFisher<S> warp{S(kappa)};
     EXPECT_WARP_LAWS(warp, {.name = fmt::format("kappa {}", kappa),
-                            .samples = kappa <= 30 ? 50'000u : 0u,
+                            .statistics = {.samples = kappa <= 30 ? 50'000u : 0u},
                             .invert_eps = 16,
                             .sample_eps = 16,
                             .pdf_eps = 32});

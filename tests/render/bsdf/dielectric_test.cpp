@@ -50,7 +50,8 @@ TEST(Dielectric, ObeysTheLawsOnBothSides) {
   for (const double angle : {0.0, 60.0, 89.9, 130.0, 150.0}) {
     const double theta = angle * mc::pi<double> / 180;
     const Vec3 wo = Vec3d(std::sin(theta), 0, std::cos(theta)).cast<Float>();
-    const auto report = mc::check_bsdf<Float>(Dielectric{}, wo, {.samples = 50'000, .alpha = 1e-5, .eta = 1.5});
+    const auto report =
+        mc::check_bsdf<Float>(Dielectric{}, wo, {.statistics = {.samples = 50'000, .alpha = 1e-5}, .eta = 1.5});
     EXPECT_TRUE(report.passed()) << angle << " degrees\n" << report.to_string();
   }
 }

@@ -36,7 +36,8 @@ TEST(FuzzyMetal, SamplesFollowTheChordDensity) {
     for (const double angle : {0.0, 60.0, 85.0, 120.0}) {
       const FuzzyMetal metal{Spectrum::Constant(Float(0.9)), Float(fuzz)};
       const auto report = mc::check_bsdf<Float>(
-          metal, at_angle(angle), {.samples = 50'000, .alpha = 1e-5, .reciprocal = false, .mass_tolerance = 1e-4});
+          metal, at_angle(angle),
+          {.statistics = {.samples = 50'000, .alpha = 1e-5}, .reciprocal = false, .mass_tolerance = 1e-4});
       EXPECT_TRUE(report.passed()) << "fuzz " << fuzz << ", " << angle << " degrees\n" << report.to_string();
     }
 }

@@ -14,7 +14,7 @@ TEST(Lambert, ObeysTheLawsOnBothSides) {
   for (const double angle : {0.0, 45.0, 89.9, 100.0, 180.0}) {
     const double theta = angle * mc::pi<double> / 180;
     const Vec3 wo = Vec3d(std::sin(theta), 0, std::cos(theta)).cast<Float>();
-    const auto report = mc::check_bsdf<Float>(white, wo, {.samples = 50'000, .alpha = 1e-5});
+    const auto report = mc::check_bsdf<Float>(white, wo, {.statistics = {.samples = 50'000, .alpha = 1e-5}});
     EXPECT_TRUE(report.passed()) << angle << " degrees\n" << report.to_string();
   }
 }

@@ -43,8 +43,8 @@ TEST(FresnelConductor, IsThatOfAComplexIndex) {
 template <class Facets> void expect_laws(const char* name) {
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0})
     for (const double angle : {0.0, 60.0, alpha < 1e-3 ? 89 : 89.9, 120.0}) {
-      const auto report =
-          mc::check_bsdf<Float>(metal<Facets>(alpha), support::at_degrees(angle), {.samples = 50'000, .alpha = 1e-5});
+      const auto report = mc::check_bsdf<Float>(metal<Facets>(alpha), support::at_degrees(angle),
+                                                {.statistics = {.samples = 50'000, .alpha = 1e-5}});
       EXPECT_TRUE(report.passed()) << name << " " << alpha << ", " << angle << " degrees\n" << report.to_string();
     }
 }

@@ -16,7 +16,7 @@ TEST(RoughDielectric, ObeysTheLawsOnBothSides) {
     for (const double angle : {0.0, 60.0, alpha < 1e-3 ? 89 : 89.9, 120.0, 150.0}) {
       const Vec3 wo = support::at_degrees(angle);
       const auto report = mc::check_bsdf<Float>(RoughDielectric(Float(1.5), Float(alpha)), wo,
-                                                {.samples = 50'000, .alpha = 1e-5, .eta = 1.5});
+                                                {.statistics = {.samples = 50'000, .alpha = 1e-5}, .eta = 1.5});
       EXPECT_TRUE(report.passed()) << alpha << ", " << angle << " degrees\n" << report.to_string();
     }
 }

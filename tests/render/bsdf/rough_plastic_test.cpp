@@ -33,7 +33,7 @@ TEST(RoughPlastic, ObeysTheLaws) {
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0})
     for (const double angle : {0.0, 60.0, 85.0, 120.0}) {
       const Vec3 wo = support::at_degrees(angle);
-      const auto report = mc::check_bsdf<Float>(plastic(alpha), wo, {.samples = 50'000, .alpha = 1e-5});
+      const auto report = mc::check_bsdf<Float>(plastic(alpha), wo, {.statistics = {.samples = 50'000, .alpha = 1e-5}});
       EXPECT_TRUE(report.passed()) << alpha << ", " << angle << " degrees\n" << report.to_string();
     }
 }
@@ -103,7 +103,7 @@ TEST(LajollaBase, GainsTowardsTheHorizon) {
   for (const double alpha : {1e-4, 0.02, 0.1})
     EXPECT_GE(support::albedo(white<LajollaBase>(1.49, alpha), std::cos(70 * mc::pi<double> / 180)), 1.03) << alpha;
   const RoughPlastic<LajollaBase> paint(Float(1.49), Float(0.02), Spectrum::Constant(Float(0.5)), Spectrum::Ones());
-  const auto report = mc::check_bsdf<Float>(paint, Vec3(0, 0, 1), {.samples = 50'000, .alpha = 1e-5});
+  const auto report = mc::check_bsdf<Float>(paint, Vec3(0, 0, 1), {.statistics = {.samples = 50'000, .alpha = 1e-5}});
   EXPECT_EQ(report.fault(), mc::Fault::physics) << report.to_string();
 }
 

@@ -32,7 +32,7 @@ TEST(SmoothConductor, IsAMirrorByFresnel) {
 TEST(SmoothConductor, ObeysTheLaws) {
   for (const double angle : {0.0, 60.0, 89.9, 120.0}) {
     const auto report = mc::check_bsdf<Float>(SmoothConductor(copper, copper_k), support::at_degrees(angle),
-                                              {.samples = 20'000, .alpha = 1e-5});
+                                              {.statistics = {.samples = 20'000, .alpha = 1e-5}});
     EXPECT_TRUE(report.passed()) << angle << " degrees\n" << report.to_string();
   }
 }

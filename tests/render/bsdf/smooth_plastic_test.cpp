@@ -16,8 +16,9 @@ const Spectrum green_base(Float(0.1), Float(0.5), Float(0.3)), all_light = Spect
 TEST(SmoothPlastic, ObeysTheLaws) {
   for (const double eta : {1.49, 0.7})
     for (const double angle : {0.0, 60.0, 85.0, 89.9, 120.0}) {
-      const auto report = mc::check_bsdf<Float>(SmoothPlastic(Float(eta), green_base, all_light),
-                                                support::at_degrees(angle), {.samples = 50'000, .alpha = 1e-5});
+      const auto report =
+          mc::check_bsdf<Float>(SmoothPlastic(Float(eta), green_base, all_light), support::at_degrees(angle),
+                                {.statistics = {.samples = 50'000, .alpha = 1e-5}});
       EXPECT_TRUE(report.passed()) << eta << ", " << angle << " degrees\n" << report.to_string();
     }
 }

@@ -34,11 +34,11 @@ std::string describe(const AnyDistribution& s, const OptionalSample& drawn) {
 
 } // namespace
 
-std::vector<Check> batch_consistency_law(const AnyDistribution& s, const LawOptions& options) {
+Findings batch_consistency_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample || !s.sample_many) return {};
   WorstError samples("batch consistency of sample", rounding, Fault::nondeterministic);
   WorstError densities("batch consistency of pdf", rounding, Fault::nondeterministic);
-  Pcg random(options.seed, 16);
+  Pcg random(options.statistics.seed, 16);
   std::vector<AnyDistribution::Uniforms> u(points);
   for (AnyDistribution::Uniforms& one : u) one = rounded_uniforms(s, random);
   const std::vector<OptionalSample> drawn = s.sample_many(u);
@@ -51,7 +51,7 @@ std::vector<Check> batch_consistency_law(const AnyDistribution& s, const LawOpti
     });
     if (to_chart(s, alone).draw.kind == Subject::Draw::Kind::point) x.push_back(alone->x);
   }
-  if (!s.pdf_many || x.empty()) return {samples.check()};
+  if (!s.pdf_many || x.empty()) return {{samples.check()}};
   const std::vector<double> pdf = s.pdf_many(x);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double alone = s.pdf(x[i]);
@@ -61,7 +61,7 @@ std::vector<Check> batch_consistency_law(const AnyDistribution& s, const LawOpti
           i + 1, x.size(), alone, format_x(s, x[i]));
     });
   }
-  return {samples.check(), densities.check()};
+  return {{samples.check(), densities.check()}};
 }
 
 } // namespace mc

@@ -188,15 +188,15 @@ template <class S> void probe_breaks(const AnyDistribution& s, std::uint64_t see
 
 } // namespace
 
-std::vector<Check> boundary_law(const AnyDistribution& s, const LawOptions& options) {
+Findings boundary_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample) return {};
-  Probe probe(s, options.open_interval);
+  Probe probe(s, options.statistics.open_interval);
   probe_corners(s, probe);
   if (s.domain.dim > 0) {
-    if (s.is_float) probe_breaks<float>(s, options.seed, probe);
-    else probe_breaks<double>(s, options.seed, probe);
+    if (s.is_float) probe_breaks<float>(s, options.statistics.seed, probe);
+    else probe_breaks<double>(s, options.statistics.seed, probe);
   }
-  return probe.checks();
+  return {probe.checks()};
 }
 
 } // namespace mc

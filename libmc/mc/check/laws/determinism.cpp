@@ -121,10 +121,10 @@ class ConstantOutput {
 
 } // namespace
 
-std::vector<Check> determinism_law(const AnyDistribution& s, const LawOptions& options) {
+Findings determinism_law(const AnyDistribution& s, const LawOptions& options) {
   RepeatedEvaluations repeated;
   ConstantOutput constant;
-  Pcg random(options.seed, 15);
+  Pcg random(options.statistics.seed, 15);
   for (int k = 0; k < points; ++k) {
     const Evaluation first = evaluate(s, random);
     Evaluation last = first;
@@ -135,7 +135,7 @@ std::vector<Check> determinism_law(const AnyDistribution& s, const LawOptions& o
   }
   std::vector<Check> checks = repeated.checks(s);
   if (s.sample && s.domain.dim > 0) checks.push_back(constant.check());
-  return checks;
+  return {checks};
 }
 
 } // namespace mc

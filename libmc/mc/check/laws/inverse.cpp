@@ -20,10 +20,10 @@ bool same_point(const AnyDistribution& s, const AnyDistribution::Uniforms& back,
 
 } // namespace
 
-std::vector<Check> inverse_law(const AnyDistribution& s, const LawOptions& options) {
+Findings inverse_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample || !s.invert) return {};
   WorstError error("invert(sample(u)) = u [eps]", options.invert_eps, Fault::inverse);
-  Pcg random(options.seed, 11);
+  Pcg random(options.statistics.seed, 11);
   for (int k = 0; k < 20000; ++k) {
     const AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     const auto drawn = s.sample(u);
@@ -40,7 +40,7 @@ std::vector<Check> inverse_law(const AnyDistribution& s, const LawOptions& optio
                          format_u(s, u));
     });
   }
-  return {error.check()};
+  return {{error.check()}};
 }
 
 } // namespace mc

@@ -20,7 +20,7 @@ Check oracle_jacobian(const AnyDistribution& s, const LawOptions& options) {
   const Oracle h(1e-20);
   const auto n = static_cast<std::size_t>(s.domain.dim);
   WorstError error("|det| pdf = 1", 1e-20, Fault::jacobian);
-  Pcg random(options.seed, 12);
+  Pcg random(options.statistics.seed, 12);
   for (std::uint64_t k = 0; k < options.points / 4; ++k) {
     const OracleDistribution::Point u = oracle_uniforms(s, random);
     Matrix<Oracle> j;
@@ -73,7 +73,7 @@ std::vector<Check> double_jacobian(const AnyDistribution& s, const LawOptions& o
     AnyDistribution::Uniforms u;
   };
   std::vector<Point> points;
-  Pcg random(options.seed, 33);
+  Pcg random(options.statistics.seed, 33);
   for (int k = 0; k < 1000; ++k) {
     AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.dim); ++i)
@@ -102,10 +102,10 @@ std::vector<Check> double_jacobian(const AnyDistribution& s, const LawOptions& o
 
 } // namespace
 
-std::vector<Check> jacobian_law(const AnyDistribution& s, const LawOptions& options) {
+Findings jacobian_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample || !s.invert || s.domain.dim == 0 || s.uniforms != s.domain.dim) return {};
-  if (s.oracle) return {oracle_jacobian(s, options)};
-  return s.is_float ? std::vector<Check>{} : double_jacobian(s, options);
+  if (s.oracle) return {{oracle_jacobian(s, options)}};
+  return {s.is_float ? std::vector<Check>{} : double_jacobian(s, options)};
 }
 
 } // namespace mc

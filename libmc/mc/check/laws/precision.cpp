@@ -33,11 +33,11 @@ double off_by_rounding(const AnyDistribution& s, const AnyDistribution::Uniforms
 
 } // namespace
 
-std::vector<Check> precision_law(const AnyDistribution& s, const LawOptions& options) {
+Findings precision_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample || !s.oracle) return {};
   WorstError sample("sample against 50 digits [eps]", options.sample_eps, Fault::precision);
   WorstError pdf("pdf against 50 digits [eps]", options.pdf_eps, Fault::precision);
-  Pcg random(options.seed, 13);
+  Pcg random(options.statistics.seed, 13);
   for (std::uint64_t k = 0; k < options.points; ++k) {
     const AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     const auto drawn = s.sample(u);
@@ -61,7 +61,7 @@ std::vector<Check> precision_law(const AnyDistribution& s, const LawOptions& opt
                          describe_x(s, drawn->x));
     });
   }
-  return {sample.check(), pdf.check()};
+  return {{sample.check(), pdf.check()}};
 }
 
 } // namespace mc

@@ -4,10 +4,10 @@
 
 namespace mc {
 
-std::vector<Check> support_law(const AnyDistribution& s, const LawOptions& options) {
+Findings support_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.eval || s.domain.dim == 0) return {};
   WorstError sign("eval finite and >= 0", 0, Fault::physics), support("pdf > 0 where eval > 0", 0, Fault::support);
-  Pcg random(options.seed, 31);
+  Pcg random(options.statistics.seed, 31);
   for (int k = 0; k < 20000; ++k) {
     AnyDomain::Coordinates v{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.dim); ++i)
@@ -21,7 +21,7 @@ std::vector<Check> support_law(const AnyDistribution& s, const LawOptions& optio
       return fmt::format("pdf is {:.9g}, should be > 0 since eval is {:.9g}, at x = {}", density, f, describe_x(s, x));
     });
   }
-  return {sign.check(), support.check()};
+  return {{sign.check(), support.check()}};
 }
 
 } // namespace mc

@@ -123,6 +123,14 @@ struct ReportedValue {
   template <class Archive> void archive(Archive& a) { a(name, value, std_error, where); }
 };
 
+/// Results of one law or of one statistical test.
+struct Findings {
+  std::vector<Check> checks = {};          ///< one for each claim
+  std::vector<ReportedValue> figures = {}; ///< quantities without a verdict
+  /// As in Report; 0 if the test states no such error.
+  double detectable = 0, detectable_cell = 0;
+};
+
 /// A law that was not tried, because the subject lacks what it needs.
 struct UntriedLaw {
   std::string name;   ///< name of the law

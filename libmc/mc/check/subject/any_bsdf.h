@@ -2,6 +2,7 @@
 /// Type-erased scattering functions, the input of the BSDF laws.
 
 #include <mc/check/subject/field_count.h>
+#include <mc/check/subject/options.h>
 #include <mc/check/subject/point_array.h>
 #include <mc/check/subject/timing.h>
 #include <mc/random/pcg.h>
@@ -14,23 +15,16 @@
 
 namespace mc {
 
-/// Properties of a BSDF, and options of check_bsdf; see SubjectOptions.
+/// Properties of a BSDF, and options of check_bsdf.
 struct BsdfOptions {
-  std::string name = "bsdf";         ///< name in the report
-  std::uint64_t samples = 1'000'000; ///< number of counted samples
-  std::uint64_t seed = 1;            ///< seed of all random numbers
-  double alpha = 0.001;              ///< family-wise level of the statistical tests
+  std::string name = "bsdf";      ///< name in the report
+  SubjectOptions statistics = {}; ///< samples and alpha of the statistical tests, and the seed of all random numbers
   bool reciprocal = true;  ///< f(wo, wi) = f(wi, wo); across the surface f(wo, wi) / eta_o^2 = f(wi, wo) / eta_i^2
   double eta = 1;          ///< refractive index of the inside (z < 0) divided by that outside
   bool cosine = true;      ///< eval leaves the cosine out; false if it includes the cosine, and for phase functions
   bool lossless = false;   ///< nothing is absorbed: the white furnace albedo is 1, instead of at most 1
   double tolerance = 1e-3; ///< relative error of reciprocity, and of stated f, weight and pdf against eval and pdf
-  double mass_tolerance = 1e-5;             ///< rounding error of the density's integral
-  std::size_t max_evaluations = 12'000'000; ///< largest number of evaluations of the density
-  bool evidence = false;                    ///< keep all counts and intermediate p-values
-  bool open_interval = false;               ///< u in (0,1): no random number is exactly 0
-  /// Called before each batch of draws; an exception that it throws ends the check.
-  const std::function<void()>* before_draws = nullptr;
+  double mass_tolerance = 1e-5; ///< rounding error of the density's integral
 };
 
 /// Values of f, one per channel.

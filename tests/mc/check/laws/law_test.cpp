@@ -28,7 +28,7 @@ AnyDistribution on_square(const std::function<PointArray(double, double)>& point
 std::string full(const mc::Report& report) { return report.to_string(mc::ReportText::full); }
 
 mc::Report laws(const AnyDistribution& s, bool open_interval = false) {
-  return check_laws(s, {.samples = 20'000, .open_interval = open_interval});
+  return check_laws(s, {.statistics = {.samples = 20'000, .open_interval = open_interval}});
 }
 
 TEST(Law, Determinism_FunctionOfU_Passes) {
@@ -101,7 +101,8 @@ TEST(Law, Determinism_StreamWithPdf_RepeatsPdf) {
 TEST(Law, Resolution_IntervalOfFewFloats_IsInconclusive) {
   const auto tried = []<class S>(S, double power) {
     const auto sample = [power](S u) { return S(1e6) + static_cast<S>(std::pow(u, power)); };
-    return mc::check_laws(mc::Interval<S>(1e6, 1e6 + 1), sample, [](S) { return S(1); }, {.samples = 20'000});
+    return mc::check_laws(mc::Interval<S>(1e6, 1e6 + 1), sample, [](S) { return S(1); },
+                          {.statistics = {.samples = 20'000}});
   };
   for (const double power : {1.0, 1.5}) {
     const mc::Report r = tried(1.0f, power);
@@ -112,7 +113,7 @@ TEST(Law, Resolution_IntervalOfFewFloats_IsInconclusive) {
   EXPECT_EQ(tried(1.0, 1.5).verdict(), mc::Verdict::fail);
   EXPECT_TRUE(mc::check_laws(
                   mc::Interval<float>(1e6, 1e6 + 64), [](float u) { return 1e6f + 64 * u; },
-                  [](float) { return 1.0f / 64; }, {.samples = 20'000})
+                  [](float) { return 1.0f / 64; }, {.statistics = {.samples = 20'000}})
                   .passed());
 }
 
@@ -153,7 +154,7 @@ TEST(Law, Boundary_SampleFailsAtZeroU_IsMeasureZero) {
   const auto tried = [](bool open) {
     return mc::check_laws(
         mc::Interval<double>(0, 1), [](double u) { return std::exp(std::log(u)) / (u > 0 ? 1.0 : 0.0); },
-        [](double) { return 1.0; }, {.samples = 20'000, .open_interval = open});
+        [](double) { return 1.0; }, {.statistics = {.samples = 20'000, .open_interval = open}});
   };
   EXPECT_EQ(tried(false).fault(), Fault::measure_zero) << tried(false).to_string();
   EXPECT_THAT(tried(false).to_string(), HasSubstr("--open-interval"));
@@ -165,14 +166,15 @@ TEST(Law, Boundary_PdfThatIsNoLimitAtZeroU_Fails) {
   for (const double bad : {std::nan(""), -1.0}) {
     const mc::Report r = mc::check_laws(
         mc::Interval<double>(0, 1), [](double u) { return u; }, [=](double x) { return x == 0 ? bad : 1.0; },
-        {.samples = 20'000});
+        {.statistics = {.samples = 20'000}});
     EXPECT_EQ(r.verdict(), mc::Verdict::fail) << bad << ": " << r.to_string();
   }
 }
 
 TEST(Law, Boundary_ZeroPdfAtZeroU_IsWarning) {
   const auto interval = [](auto sample, auto pdf, bool open) {
-    return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, {.samples = 20'000, .open_interval = open});
+    return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf,
+                          {.statistics = {.samples = 20'000, .open_interval = open}});
   };
   const auto root = [](double u) { return std::sqrt(u); };
   const auto ramp = [](double x) { return 2 * x; };
@@ -199,7 +201,8 @@ TEST(Law, Boundary_PdfZeroAtOnePoint_IsMeasureZero) {
   };
   const auto tried = [&]<class S>(S, double gap, bool open) {
     const auto pdf = [gap](S x) { return std::abs(static_cast<double>(x)) <= gap ? S(0) : std::abs(x); };
-    return mc::check_laws(mc::Interval<S>(-1, 1), root, pdf, {.samples = 20'000, .open_interval = open});
+    return mc::check_laws(mc::Interval<S>(-1, 1), root, pdf,
+                          {.statistics = {.samples = 20'000, .open_interval = open}});
   };
   EXPECT_TRUE(is_warned(tried(0.0, 0, false))) << tried(0.0, 0, false).to_string();
   EXPECT_TRUE(is_warned(tried(0.0f, 0, false))) << tried(0.0f, 0, false).to_string();
@@ -216,7 +219,8 @@ TEST(Law, Boundary_InfinitePdfAtDomainEdge_IsMeasureZero) {
   const auto tried = [](double power, bool open) {
     const auto sine = [power](double u) { return std::pow(std::sin(mc::pi<double> / 2 * u), power); };
     const auto pdf = [](double x) { return 1 / (mc::pi<double> * std::sqrt(x * (1 - x))); };
-    return mc::check_laws(mc::Interval<double>(0, 1), sine, pdf, {.samples = 20'000, .open_interval = open});
+    return mc::check_laws(mc::Interval<double>(0, 1), sine, pdf,
+                          {.statistics = {.samples = 20'000, .open_interval = open}});
   };
   EXPECT_TRUE(is_warned(tried(2, false))) << tried(2, false).to_string();
   EXPECT_TRUE(tried(2, true).passed()) << tried(2, true).to_string();

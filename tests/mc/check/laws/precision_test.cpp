@@ -20,7 +20,7 @@ TEST(PrecisionLaw, ErrorWithinRoundingOfU_Passes) {
   const mc::Mixture mixture(std::array<double, 2>{1e-4, 1 - 1e-4}, mc::UniformHemisphere<double>{},
                             mc::CosineHemisphere<double>{});
   for (std::uint64_t seed = 1; seed <= 50; ++seed)
-    EXPECT_EQ(of_sample(check_laws(mixture, {.samples = 0, .seed = seed})), "pass") << seed;
+    EXPECT_EQ(of_sample(check_laws(mixture, {.statistics = {.samples = 0, .seed = seed}})), "pass") << seed;
 }
 
 // Off by 64 steps, although the sample changes as fast as u.
@@ -31,7 +31,7 @@ struct Shifted : mc::UniformInterval<double> {
 };
 
 TEST(PrecisionLaw, ErrorBeyondRoundingOfU_Fails) {
-  EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.samples = 0})), "pass");
+  EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.statistics = {.samples = 0}})), "pass");
 }
 
 } // namespace

@@ -30,7 +30,7 @@ TEST(Quantization, NarrowLobeFromFloatCosine_IsReported) {
   EXPECT_EQ(mc::describe_quantization(lobe_from_cosine(1e6f), 1),
             "cos theta is rounded to float near the pole; compute 1 - cos theta instead");
   EXPECT_EQ(mc::describe_quantization(lobe_from_cosine(1e6), 1), "");
-  const mc::Report report = check_laws(lobe_from_cosine(1e6f), {.samples = 100'000});
+  const mc::Report report = check_laws(lobe_from_cosine(1e6f), {.statistics = {.samples = 100'000}});
   EXPECT_THAT(report.to_string(), HasSubstr("cos theta has steps of"));
 }
 
@@ -104,7 +104,7 @@ TEST(Quantization, PointOutsideByFloatRounding_IsReported) {
   };
   const auto s = mc::make_distribution("w", mc::Hemisphere<double>(), in_float,
                                        [](const mc::Vec3<double>& w) { return w.z() / mc::pi<double>; });
-  const mc::Report report = check_laws(s, {.samples = 20'000});
+  const mc::Report report = check_laws(s, {.statistics = {.samples = 20'000}});
   EXPECT_EQ(report.verdict(), mc::Verdict::fail);
   EXPECT_THAT(report.to_string(), testing::ContainsRegex("of length 1 [+-] [0-9.]+e-0[78]" + excess.substr(0, 30)));
 }

@@ -1,6 +1,5 @@
 #include <mc/check/fit/expected/mass.h>
 
-#include <mc/check/fit/alpha_shares.h>
 #include <mc/check/fit/interior_density.h>
 #include <mc/core/sum.h>
 #include <mc/core/types.h>
@@ -156,14 +155,14 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   return mass;
 }
 
-Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
+Check test_mass(const Subject& s, const ClaimedMass& mass, double share, double alpha) {
   const double excess = mass.value - 1, off = s.may_fail ? std::max(excess, 0.0) : std::abs(excess);
   Check c{"mass", Verdict::pass, {}, 0, off, mass.error + s.mass_tolerance, Fault::mass, {}};
   if (mass.by_cubature) {
     if (!(off <= c.limit)) c.verdict = Verdict::fail;
   } else {
     c.p = normal_tail(mass.z);
-    c.share = alpha_share(FitTest::mass, s.dim);
+    c.share = share;
     c.statistic = mass.z;
     if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
     else if (!(mass.estimated_error <= 0.03)) c.verdict = Verdict::inconclusive;

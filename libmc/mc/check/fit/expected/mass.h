@@ -32,7 +32,7 @@ struct ClaimedMass {
 ClaimedMass claimed_mass(const Subject& subject, const CubatureResult& cubature, const EstimatedMass& reference,
                          const EstimatedMass& uncapped, const SampleWeights& samples);
 
-/// Tests that the mass is 1, or at most 1 if samples may fail. Spends alpha_share(mass) if the mass is estimated.
-Check test_mass(const Subject& subject, const ClaimedMass& mass, double alpha);
+/// Tests that the mass is 1, or at most 1 if samples may fail. Spends a share of alpha if the mass is estimated.
+Check test_mass(const Subject& subject, const ClaimedMass& mass, double share, double alpha);
 
 } // namespace mc

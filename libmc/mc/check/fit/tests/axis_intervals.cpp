@@ -1,7 +1,7 @@
 #include <mc/check/fit/tests/axis_intervals.h>
 
-#include <mc/check/fit/alpha_shares.h>
 #include <mc/check/fit/lattice.h>
+#include <mc/check/fit/tests/fit_test.h>
 #include <mc/stats/binomial.h>
 #include <mc/stats/multiple_testing.h>
 
@@ -184,16 +184,9 @@ std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pil
 }
 
 Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals,
-                          double n, double mass, double alpha) {
+                          double n, double mass, double alpha_share, double alpha) {
   const bool atom = kind == AxisInterval::Kind::atom;
-  Check c{atom ? "no atoms" : "no gaps",
-          Verdict::pass,
-          1.0,
-          alpha_share(atom ? FitTest::atoms : FitTest::gaps, s.dim),
-          0,
-          0,
-          atom ? Fault::atom : Fault::local,
-          {}};
+  Check c{atom ? "no atoms" : "no gaps", Verdict::pass, 1.0, alpha_share, 0, 0, atom ? Fault::atom : Fault::local, {}};
   for (const AxisInterval& interval : intervals) {
     if (interval.kind != kind) continue;
     const double slack = 4 * std::sqrt(interval.mass.worst_case_variance()), share = interval.count / n;
@@ -217,5 +210,21 @@ Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::
   else c.detail.clear();
   return c;
 }
+
+namespace {
+
+FitTest test_of(AxisInterval::Kind kind, double share) {
+  return {.judge = [=](const FitCounts& counts) {
+    const FitSetup& setup = counts.setup;
+    return Findings{{test_axis_intervals(setup.subject, kind, counts.intervals, counts.kept, counts.total(), share,
+                                         setup.options.alpha)}};
+  }};
+}
+
+} // namespace
+
+FitTest atoms_test(const FitSetup&, double share) { return test_of(AxisInterval::Kind::atom, share); }
+
+FitTest gaps_test(const FitSetup&, double share) { return test_of(AxisInterval::Kind::gap, share); }
 
 } // namespace mc

@@ -38,10 +38,11 @@ std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pil
 /// interval is one of n candidates, which the p-value takes into account; four standard deviations of the mass are
 /// conceded. An atom must also be unlikely for samples rounded to coarse steps. The width of the steps follows from the
 /// number of equal pairs elsewhere, with 31 random bits as the coarsest accepted steps: such samples repeat values, but
-/// rarely the largest value. Spends alpha_share(atoms) or alpha_share(gaps).
+/// rarely the largest value.
 ///   n    : number of samples drawn.
 ///   mass : integral of the density; 1 if samples may fail.
+///   share : share of alpha that the test spends.
 Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals,
-                          double n, double mass, double alpha);
+                          double n, double mass, double share, double alpha);
 
 } // namespace mc

@@ -1,5 +1,7 @@
 #include <mc/check/fit/tests/density_ratio.h>
 
+#include <mc/check/fit/tests/fit_test.h>
+
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>
 
@@ -46,5 +48,28 @@ Check DensityRatioTest::test(double share, double alpha) const {
   }
   return c;
 }
+
+namespace {
+
+struct DensityRatioInProgress {
+  DensityRatioTest levels;
+  double share;
+
+  void expect(const ReferenceBlock& block) {
+    for (std::size_t i = 0; i < block.points.size(); ++i) {
+      const StratifiedReference::EvaluatedPoint& p = block.points[i];
+      levels.add_expected(p.density / p.stratum->density, p.share, block.weights[i]);
+    }
+  }
+  void count(const SampleBlock& block) {
+    for (std::size_t i = 0; i < block.points.size(); ++i)
+      levels.add_sample(block.densities[i] / block.strata[i]->density, block.weights[i], block.shares[i]);
+  }
+  Findings judge(const FitCounts& counts) const { return {{levels.test(share, counts.setup.options.alpha)}}; }
+};
+
+} // namespace
+
+FitTest density_ratio_test(const FitSetup&, double share) { return make_fit_test(DensityRatioInProgress{{}, share}); }
 
 } // namespace mc

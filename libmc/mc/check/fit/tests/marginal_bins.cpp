@@ -1,5 +1,7 @@
 #include <mc/check/fit/tests/marginal_bins.h>
 
+#include <mc/check/fit/tests/fit_test.h>
+
 #include <mc/stats/binomial.h>
 #include <mc/stats/multiple_testing.h>
 
@@ -167,6 +169,33 @@ Check MarginalBins::test(const Subject& s, const Pilot& pilot, double n, double 
   if (*c.p <= sidak_level(alpha, share)) c.verdict = Verdict::fail;
   else c.detail.clear();
   return c;
+}
+
+namespace {
+
+struct MarginalBinsInProgress {
+  MarginalBins bins;
+  double share;
+
+  void expect(const ReferenceBlock& block) {
+    for (std::size_t i = 0; i < block.points.size(); ++i)
+      bins.add_expected(block.points[i].v, block.points[i].share, block.weights[i]);
+  }
+  void count(const SampleBlock& block) {
+    for (std::size_t i = 0; i < block.points.size(); ++i)
+      bins.add_sample(block.points[i], block.weights[i], block.shares[i]);
+  }
+  Findings judge(const FitCounts& counts) const {
+    const Subject& s = counts.setup.subject;
+    const double points = std::max(counts.mass.value - std::accumulate(s.atoms.begin(), s.atoms.end(), 0.0), 1e-300);
+    return {{bins.test(s, counts.setup.pilot, counts.weights.points, points, share, counts.setup.options.alpha)}};
+  }
+};
+
+} // namespace
+
+FitTest marginal_bins_test(const FitSetup& setup, double share) {
+  return make_fit_test(MarginalBinsInProgress{MarginalBins(setup.pilot, setup.subject.dim), share});
 }
 
 } // namespace mc

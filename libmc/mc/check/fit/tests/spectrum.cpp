@@ -1,6 +1,6 @@
 #include <mc/check/fit/tests/spectrum.h>
 
-#include <mc/check/fit/tests/axis_intervals.h>
+#include <mc/check/fit/tests/fit_test.h>
 #include <mc/core/types.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>
@@ -240,6 +240,51 @@ std::vector<std::complex<float>> fourier_transform(const std::vector<float>& x, 
       else result[row * half + k] = {difference.imag(), -difference.real()};
     }
   return result;
+}
+
+namespace {
+
+struct SpectrumInProgress {
+  SpectrumTest grid;
+  double share;
+
+  void expect(const ReferenceBlock& block) {
+    for (const StratifiedReference::EvaluatedPoint& p : block.points) grid.add_expected(p.v, p.share);
+  }
+  void count(const SampleBlock& block) {
+    for (std::size_t i = 0; i < block.points.size(); ++i) grid.add_sample(block.points[i], block.weights[i]);
+  }
+  Findings judge(const FitCounts& counts) const {
+    return {grid.test(counts.all, share, counts.setup.options.alpha, "chart")};
+  }
+};
+
+bool is_finite(const Subject::Coordinates& u) {
+  return std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); });
+}
+
+} // namespace
+
+FitTest spectrum_test(const FitSetup& setup, double share) {
+  const double n = static_cast<double>(setup.options.samples);
+  const double step = mean_step(setup.subject, setup.pilot, 1 / std::sqrt(n));
+  return make_fit_test(SpectrumInProgress{SpectrumTest(setup.subject.dim, n, step), share});
+}
+
+FitTest inverted_spectrum_test(const FitSetup&, double share) {
+  return {.judge = [share](const FitCounts& counts) {
+    const std::vector<Subject::Coordinates>& inverted = counts.inverted;
+    if (inverted.empty() || !std::all_of(inverted.begin(), inverted.end(), is_finite)) return Findings{};
+    const Subject& s = counts.setup.subject;
+    SpectrumTest grid(s.dim, static_cast<double>(inverted.size()), s.invert_error);
+    grid.expect_uniform();
+    WeightedCounts all;
+    for (const Subject::Coordinates& u : inverted) {
+      grid.add_sample(u, 1);
+      all.add_sample(1, 0);
+    }
+    return Findings{grid.test(all, share, counts.setup.options.alpha, "inverted samples")};
+  }};
 }
 
 } // namespace mc

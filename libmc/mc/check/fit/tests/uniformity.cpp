@@ -1,5 +1,6 @@
 #include <mc/check/fit/tests/uniformity.h>
 
+#include <mc/check/fit/tests/fit_test.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/ks_test.h>
 #include <mc/stats/multiple_testing.h>
@@ -77,6 +78,19 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
   if (*c.p <= sidak_level(alpha, share)) c.verdict = Verdict::fail;
   else c.detail.clear();
   return c;
+}
+
+FitTest uniformity_test(const FitSetup&, double share) {
+  return {.judge = [share](const FitCounts& counts) {
+    const auto& [s, options, pilot] = counts.setup;
+    Findings found;
+    if (counts.inverted.empty()) return found;
+    if (auto lost = check_inverse_finite(s, inverted_stream(options), inverted_count(options), counts.inverted))
+      found.checks.push_back(std::move(*lost));
+    else if (auto c = test_uniformity(counts.inverted, s.dim, s.invert_error, options.alpha, share))
+      found.checks.push_back(std::move(*c));
+    return found;
+  }};
 }
 
 } // namespace mc

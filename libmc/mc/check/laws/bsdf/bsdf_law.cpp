@@ -108,7 +108,7 @@ struct Lobes {
 };
 Lobes find_lobes(const AnyBsdf& bsdf, const Direction& wo, const BsdfOptions& options) {
   Lobes lobes;
-  Pcg random(options.seed, 21);
+  Pcg random(options.statistics.seed, 21);
   for (int i = 0; i < 4096; ++i) {
     const auto d = bsdf.sample_next(wo, random);
     if (!d) continue;
@@ -173,7 +173,7 @@ AnyDistribution bsdf_distribution(const AnyBsdf& bsdf, const AnyBsdf::Direction&
                                     : detail::distribution_on(options.name, Sphere<double>{});
   if (!lobes.continuous) s.domain.dim = 0;
   s.may_fail = true;
-  s.open_interval = options.open_interval;
+  s.open_interval = options.statistics.open_interval;
   s.states_weight = true;
   s.weight_tolerance = options.tolerance;
   s.mass_tolerance = options.mass_tolerance;

@@ -1,6 +1,6 @@
 #pragma once
-/// Interface of the laws of BSDFs. Each law is one function in a file of its own and one row of the table in
-/// bsdf_laws.cpp.
+/// Interface of the laws of BSDFs. Each law is one function in a file of its own and one row of table.cpp:
+///   Findings law(const BsdfView& view);
 
 #include <mc/check/laws/worst_error.h>
 #include <mc/check/report/report.h>
@@ -28,17 +28,10 @@ struct BsdfView {
   const AnyBsdf& bsdf;
   AnyBsdf::Direction wo;
   const BsdfOptions& options;
+  AnyDistribution distribution;     ///< of wi; see bsdf_distribution()
   std::vector<DirectionPair> pairs; ///< pairs with sampled and with uniform wi
   bool transmissive = false;        ///< samples cross the surface, so directions on the other side are defined
 };
-
-/// Result of a law of BSDFs.
-struct BsdfFindings {
-  std::vector<Check> checks;
-  std::vector<ReportedValue> figures;
-};
-/// A law of BSDFs.
-using BsdfLaw = BsdfFindings(const BsdfView& view);
 
 /// Returns the largest |a / b - 1| over the channels; 0 for equal values.
 double relative_difference(double a, double b);

@@ -26,10 +26,10 @@ std::optional<Channels> share_back(const BsdfView& view, const AnyBsdf::Sample& 
 
 } // namespace
 
-BsdfFindings bsdf_delta_reciprocity_law(const BsdfView& view) {
+Findings bsdf_delta_reciprocity_law(const BsdfView& view) {
   if (!view.options.reciprocal) return {};
   WorstError error("reciprocity of delta lobes", view.options.tolerance, Fault::physics);
-  Pcg random(view.options.seed, 23);
+  Pcg random(view.options.statistics.seed, 23);
   std::array<bool, 2> done{};
   for (int i = 0; i < 256; ++i) {
     const auto there = view.bsdf.sample_next(view.wo, random);
@@ -46,7 +46,7 @@ BsdfFindings bsdf_delta_reciprocity_law(const BsdfView& view) {
       });
     }
   }
-  return {{error.check()}, {}};
+  return {{error.check()}};
 }
 
 } // namespace mc

@@ -49,10 +49,10 @@ ReportedValue judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, s
 
 } // namespace
 
-BsdfFindings bsdf_energy_law(const BsdfView& view) {
+Findings bsdf_energy_law(const BsdfView& view) {
   WorstError energy("energy <= 1", 0, Fault::physics);
-  const int n = static_cast<int>(std::min<std::uint64_t>(view.options.samples, 100'000));
-  const ReportedValue here = judge(view, view.wo, n, view.options.seed, energy);
+  const int n = static_cast<int>(std::min<std::uint64_t>(view.options.statistics.samples, 100'000));
+  const ReportedValue here = judge(view, view.wo, n, view.options.statistics.seed, energy);
   double most = -1;
   AnyBsdf::Direction brightest = view.wo;
   for (int k = 0; k < 32; ++k) {
@@ -62,13 +62,14 @@ BsdfFindings bsdf_energy_law(const BsdfView& view) {
     const double side = (view.wo.z() < 0) == other_side ? 1 : -1;
     const double z = side * cosines[static_cast<std::size_t>(k / 2 % 8)], phi = k < 16 ? 0.4 : 2.3;
     const AnyBsdf::Direction w = spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
-    const ReportedValue f = judge(view, w, 1000, view.options.seed + static_cast<std::uint64_t>(k) + 1, energy);
+    const ReportedValue f =
+        judge(view, w, 1000, view.options.statistics.seed + static_cast<std::uint64_t>(k) + 1, energy);
     if (!(f.value > most)) continue;
     most = f.value;
     brightest = w;
   }
   // A thousand samples underestimate the albedo if they rarely draw the lobe that gains energy.
-  ReportedValue again = judge(view, brightest, n, view.options.seed + 33, energy);
+  ReportedValue again = judge(view, brightest, n, view.options.statistics.seed + 33, energy);
   again.name = "white furnace, greatest over wo";
   return {{energy.check()}, {here, again}};
 }

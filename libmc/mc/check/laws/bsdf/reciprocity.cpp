@@ -71,14 +71,14 @@ std::string describe_pair(const BsdfView& view, const DirectionPair& pair, const
 
 } // namespace
 
-BsdfFindings bsdf_reciprocity_law(const BsdfView& view) {
+Findings bsdf_reciprocity_law(const BsdfView& view) {
   if (!view.options.reciprocal) return {};
   const Quantity quantity = compared_quantity(view);
   WorstError reciprocity("reciprocity", view.options.tolerance, Fault::physics);
   for (const DirectionPair& pair : view.pairs)
     if (pair.has_reverse)
       reciprocity.note(error(view, pair, quantity), [&] { return describe_pair(view, pair, quantity); });
-  return {{reciprocity.check()}, {}};
+  return {{reciprocity.check()}};
 }
 
 } // namespace mc

@@ -14,6 +14,14 @@ struct RoughnessLimitOptions {
   int samples = 20'000;
 };
 
+/// A family of BSDFs with its smooth limit and a fixed wo, the input of the laws of roughness.
+struct RoughnessFamily {
+  const std::function<AnyBsdf(double r)>& family;
+  const AnyBsdf& limit;
+  AnyBsdf::Direction wo;
+  const RoughnessLimitOptions& options;
+};
+
 /// Tests the continuity of a family of BSDFs in roughness, for one wo. family(r) is the BSDF of roughness r in (0, 1];
 /// `limit` is the smooth BSDF.
 ///   sample : the means of weight, of weight * wi and of the absorbed fraction approach the means of the limit. For r =

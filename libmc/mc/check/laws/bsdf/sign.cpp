@@ -4,7 +4,7 @@
 
 namespace mc {
 
-BsdfFindings bsdf_sign_law(const BsdfView& view) {
+Findings bsdf_sign_law(const BsdfView& view) {
   WorstError sign("f finite and >= 0", 0, Fault::physics);
   for (const DirectionPair& pair : view.pairs) {
     const Channels& f = pair.f;
@@ -15,7 +15,7 @@ BsdfFindings bsdf_sign_law(const BsdfView& view) {
                          describe(view, pair));
     });
   }
-  return {{sign.check()}, {}};
+  return {{sign.check()}};
 }
 
 } // namespace mc

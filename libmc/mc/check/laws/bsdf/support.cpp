@@ -4,7 +4,7 @@
 
 namespace mc {
 
-BsdfFindings bsdf_support_law(const BsdfView& view) {
+Findings bsdf_support_law(const BsdfView& view) {
   WorstError support("pdf > 0 where f > 0", 0, Fault::support);
   for (const DirectionPair& pair : view.pairs) {
     const Channels& f = pair.f;
@@ -14,7 +14,7 @@ BsdfFindings bsdf_support_law(const BsdfView& view) {
                          describe(view, pair));
     });
   }
-  return {{support.check()}, {}};
+  return {{support.check()}};
 }
 
 } // namespace mc

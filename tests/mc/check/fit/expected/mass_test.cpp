@@ -32,7 +32,7 @@ TEST(Mass, CubatureAgreesWithReference_IsUsed) {
   EXPECT_NEAR(c.total.value, 1, 1e-12);
   const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
   EXPECT_TRUE(m.by_cubature);
-  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
+  EXPECT_EQ(test_mass(s, m, 0.02, 0.01).verdict, Verdict::pass);
 }
 
 TEST(Mass, WrongNormalization_Fails) {
@@ -41,7 +41,7 @@ TEST(Mass, WrongNormalization_Fails) {
   const mc::CubatureResult c = integrate_density(s, pilot, {s, pilot, 6}, 1e5, 100'000);
   const mc::ClaimedMass m = claimed(s, c, {.value = 1.001, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
   EXPECT_TRUE(m.by_cubature);
-  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::fail);
+  EXPECT_EQ(test_mass(s, m, 0.02, 0.01).verdict, Verdict::fail);
 }
 
 // The reference contains mass that the cubature missed, so the samples decide.
@@ -52,9 +52,9 @@ TEST(Mass, CubatureContradictsSamples_IsNotUsed) {
   const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-10, .variance_square = 1e-23}, plain(1e5));
   EXPECT_FALSE(m.by_cubature);
   EXPECT_EQ(m.value, 1);
-  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
+  EXPECT_EQ(test_mass(s, m, 0.02, 0.01).verdict, Verdict::pass);
   const mc::ClaimedMass off = claimed(s, c, {.value = 1.001, .variance = 1e-10, .variance_square = 1e-23}, plain(1e5));
-  EXPECT_EQ(test_mass(s, off, 0.01).verdict, Verdict::fail);
+  EXPECT_EQ(test_mass(s, off, 0.02, 0.01).verdict, Verdict::fail);
 }
 
 // A tenth of the draws is clipped to almost nothing; the mass that they represent is added.
@@ -66,7 +66,7 @@ TEST(Mass, ClippedDensity_IsEstimatedFromSamples) {
   const mc::ClaimedMass m = claimed(s, c, {.value = 0.9, .variance = 1e-10, .variance_square = 1e-23}, w);
   EXPECT_NEAR(m.estimated, 1, 1e-12);
   EXPECT_FALSE(m.by_cubature);
-  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
+  EXPECT_EQ(test_mass(s, m, 0.02, 0.01).verdict, Verdict::pass);
 }
 
 // A cubature that is off by 1 to 8 standard deviations of the estimate, but claims to be exact. A correct density fails
@@ -83,7 +83,7 @@ TEST(Mass, OverconfidentCubature_CorrectDensityPasses) {
       mc::CubatureResult c;
       c.total = {1 - off * sigma, 1e-15};
       const mc::EstimatedMass reference{.value = 1 + sigma * normal, .variance = mc::sqr(sigma)};
-      failed += test_mass(s, claimed(s, c, reference, plain(1e6)), 0.001).verdict == Verdict::fail;
+      failed += test_mass(s, claimed(s, c, reference, plain(1e6)), 0.02, 0.001).verdict == Verdict::fail;
     }
     EXPECT_LE(failed, 13) << off;
   }
@@ -96,7 +96,7 @@ TEST(Mass, DiscreteOutcomes_AddUp) {
   EXPECT_EQ(m.value, 1);
   EXPECT_LE(m.error, 1e-15);
   s.atoms = {0.25, 0.74};
-  EXPECT_EQ(test_mass(s, claimed(s, {}, {}, plain(1e5)), 0.01).verdict, Verdict::fail);
+  EXPECT_EQ(test_mass(s, claimed(s, {}, {}, plain(1e5)), 0.02, 0.01).verdict, Verdict::fail);
 }
 
 // If the weights of the samples contradict mass 1 but the random points confirm it, the samples are wrong.
@@ -110,14 +110,14 @@ TEST(Mass, SamplesMissDensity_IsFaultOfShape) {
   m.z = 30;
   m.from_points = 1.02;
   m.from_points_error = 0.01;
-  const mc::Check shape = test_mass(s, m, 0.01);
+  const mc::Check shape = test_mass(s, m, 0.02, 0.01);
   EXPECT_EQ(shape.verdict, Verdict::fail);
   EXPECT_EQ(shape.fault, mc::Fault::shape);
   EXPECT_NE(shape.detail.find("from random points it integrates to 1.02 +- 0.01"), std::string::npos) << shape.detail;
   m.from_points = 0.95;
-  EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass);
+  EXPECT_EQ(test_mass(s, m, 0.02, 0.01).fault, mc::Fault::mass);
   m.from_points_error = 0.1;
-  EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass) << "random points do not know either";
+  EXPECT_EQ(test_mass(s, m, 0.02, 0.01).fault, mc::Fault::mass) << "random points do not know either";
 }
 
 // Uniform outcomes with probabilities 1/n in double, a table normalised by a sum with rounding errors, and two wrong
@@ -127,7 +127,7 @@ TEST(Mass, DiscreteOutcomes_RoundingOfTheirSumIsConceded) {
     mc::Subject s;
     s.mass_tolerance = 64 * s.epsilon;
     s.atoms.assign(n, scale / static_cast<double>(n));
-    return test_mass(s, claimed_mass(s, {}, {}, {}, {}), 0.01);
+    return test_mass(s, claimed_mass(s, {}, {}, {}, {}), 0.02, 0.01);
   };
   for (const std::size_t n : {1, 7, 2000, 10'000, 1'000'000, 10'000'000}) {
     EXPECT_EQ(verdict(n, 1).verdict, Verdict::pass) << n;

@@ -44,7 +44,7 @@ mc::Verdict atoms(std::uint64_t seed, std::uint64_t n, int bits, double limit) {
       [](double x) { return std::exp(-x); });
   const mc::Pilot pilot = draw_pilot(s, seed, 8 * n);
   return test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted), static_cast<double>(n),
-                             1, 0.01)
+                             1, 0.03, 0.01)
       .verdict;
 }
 
@@ -81,8 +81,8 @@ TEST(AxisIntervals, LobeThinnerThanInterval_IsNoAtom) {
           });
       for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const mc::Pilot pilot = draw_pilot(s, seed, 160'000);
-        const mc::Check c =
-            test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted), 20'000, 1, 0.01);
+        const mc::Check c = test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted),
+                                                20'000, 1, 0.03, 0.01);
         EXPECT_EQ(c.verdict, mc::Verdict::pass) << width << ", " << decay << ", seed " << seed << ": p = " << *c.p;
       }
     }

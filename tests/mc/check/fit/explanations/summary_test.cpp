@@ -1,4 +1,4 @@
-#include <mc/check/summary.h>
+#include <mc/check/fit/explanations/summary.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <mc/check/fit/tests/rotation.h>
+#include <mc/check/fit/explanations/rotation.h>
 
 #include <mc/check/check_subject.h>
 #include <mc/check/subject/make_subject.h>

@@ -5,16 +5,10 @@
 #include <mc/check/fit/pilot.h>
 #include <mc/check/report/report.h>
 
-#include <vector>
-
 namespace mc {
 
 /// A failed test of the mass is inconclusive, of Fault::rounding, if the density itself rounds by as much. Its rounding
 /// is the median change between neighbouring points of the pilot.
 void explain_mass_by_rounding(const Subject& subject, const Pilot& pilot, const ClaimedMass& mass, Check& test);
-
-/// Inserts a warning for each axis of find_coarse_axes(). It explains failed statistical tests of the density, except
-/// along other axes: they are inconclusive.
-void explain_by_rounding(const Subject& subject, const Pilot& pilot, std::vector<Check>& checks);
 
 } // namespace mc

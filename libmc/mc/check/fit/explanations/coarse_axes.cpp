@@ -1,4 +1,4 @@
-#include <mc/check/fit/tests/coarse_axes.h>
+#include <mc/check/fit/explanations/coarse_axes.h>
 
 #include <mc/check/fit/expected/interval_mass.h>
 #include <mc/random/hash.h>

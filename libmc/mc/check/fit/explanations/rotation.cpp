@@ -1,6 +1,10 @@
-#include <mc/check/fit/tests/rotation.h>
+#include <mc/check/fit/explanations/rotation.h>
 
+#include <mc/check/fit/explanations/summary.h>
+#include <mc/check/fit/tests/fit_test.h>
 #include <mc/core/types.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -107,6 +111,25 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
   const double groups = static_cast<double>(p.size());
   if (!explains(unturned, best, groups, 25 + 10 * std::sqrt(groups))) return {};
   return turn > 0.5 ? turn - 1 : turn;
+}
+
+// If a rotation about the pole explains the counts, reports it as the likely cause.
+void explain_by_rotation(const FitCounts& counts, std::vector<TestFindings>& findings) {
+  const auto of_shape = [](const Check* c) {
+    return c->verdict == Verdict::fail && (c->fault == Fault::shape || c->fault == Fault::local);
+  };
+  const std::vector<Check*> checks = checks_of_cells(findings);
+  const Subject& s = counts.setup.subject;
+  if (s.dim < 2 || std::none_of(checks.begin(), checks.end(), of_shape)) return;
+  const std::vector<Axis> axes = named_axes(s);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
+    if (axes[d].scale != Axis::Scale::azimuth) continue;
+    const std::optional<double> turn = find_rotation(s, d, *counts.partition, counts.cells, counts.setup.pilot.points);
+    if (!turn) continue;
+    prepend_finding(checks, fmt::format("the samples seem rotated by {:.3g} deg in {}", 360 * *turn, axes[d].name));
+    for (Check* c : checks)
+      if (of_shape(c)) c->fault = Fault::rotation;
+  }
 }
 
 } // namespace mc

@@ -2,7 +2,7 @@
 /// Detects samples that follow a density rotated about its pole.
 
 #include <mc/check/fit/expected/partition.h>
-#include <mc/check/fit/tests/cell_tests.h>
+#include <mc/check/fit/pooled_cells.h>
 #include <mc/check/subject/subject.h>
 
 #include <optional>

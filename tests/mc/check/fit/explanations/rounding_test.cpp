@@ -1,4 +1,4 @@
-#include <mc/check/fit/tests/rounding.h>
+#include <mc/check/fit/explanations/rounding.h>
 
 #include <mc/check/random_subjects.h>
 

@@ -2,7 +2,7 @@
 /// Summaries of the counts in cells, for reports.
 
 #include <mc/check/fit/expected/partition.h>
-#include <mc/check/fit/tests/cell_tests.h>
+#include <mc/check/fit/pooled_cells.h>
 #include <mc/check/report/report.h>
 #include <mc/check/subject/subject.h>
 

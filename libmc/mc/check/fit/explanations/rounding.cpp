@@ -1,5 +1,6 @@
-#include <mc/check/fit/tests/coarse_axes.h>
-#include <mc/check/fit/tests/rounding.h>
+#include <mc/check/fit/explanations/coarse_axes.h>
+#include <mc/check/fit/explanations/rounding.h>
+#include <mc/check/fit/tests/fit_test.h>
 
 #include <fmt/format.h>
 
@@ -42,8 +43,17 @@ void explain_mass_by_rounding(const Subject& s, const Pilot& pilot, const Claime
                   100 * rounding, mass.value, mass.error);
 }
 
-void explain_by_rounding(const Subject& s, const Pilot& pilot, std::vector<Check>& checks) {
-  const std::vector<CoarseAxis> coarse = find_coarse_axes(s, pilot);
+// The first test of the mass, if it fails because the density rounds.
+void explain_mass_by_rounding(const FitCounts& counts, std::vector<TestFindings>& findings) {
+  for (TestFindings& f : findings)
+    for (Check& c : f.checks) explain_mass_by_rounding(counts.setup.subject, counts.setup.pilot, counts.mass, c);
+}
+
+// Inserts a warning for each axis of find_coarse_axes(). It explains failed statistical tests of the density, except
+// along other axes: they are inconclusive.
+void explain_by_coarse_axes(const FitCounts& counts, std::vector<TestFindings>& findings) {
+  const Subject& s = counts.setup.subject;
+  const std::vector<CoarseAxis> coarse = find_coarse_axes(s, counts.setup.pilot);
   if (coarse.empty()) return;
   const auto is_of_another_axis = [&](const Check& c) {
     for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
@@ -52,17 +62,19 @@ void explain_by_rounding(const Subject& s, const Pilot& pilot, std::vector<Check
     return false;
   };
   bool any = false;
-  for (Check& c : checks) {
-    const bool density = c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom;
-    if (c.verdict != Verdict::fail || !c.p || !density || is_of_another_axis(c)) continue;
-    c.verdict = Verdict::inconclusive;
-    any = true;
+  for (TestFindings& f : findings)
+    for (Check& c : f.checks) {
+      const bool density = c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::atom;
+      if (c.verdict != Verdict::fail || !c.p || !density || is_of_another_axis(c)) continue;
+      c.verdict = Verdict::inconclusive;
+      any = true;
+    }
+  TestFindings warnings;
+  for (const CoarseAxis& axis : coarse) {
+    warnings.checks.push_back(axis.finding);
+    warnings.checks.back().verdict = any ? Verdict::inconclusive : Verdict::warning;
   }
-  for (std::size_t i = 0; i < coarse.size(); ++i) {
-    Check finding = coarse[i].finding;
-    finding.verdict = any ? Verdict::inconclusive : Verdict::warning;
-    checks.insert(checks.begin() + static_cast<std::ptrdiff_t>(i), std::move(finding));
-  }
+  findings.insert(findings.begin(), std::move(warnings));
 }
 
 } // namespace mc

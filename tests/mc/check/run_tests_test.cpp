@@ -1,5 +1,6 @@
-#include <mc/check/fit/tests/cell_tests.h>
+#include <mc/check/run_tests.h>
 
+#include <mc/check/table.h>
 #include <mc/random/pcg.h>
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ void fill(std::vector<mc::Cell>& cells, std::uint64_t seed, int n, double power 
         1);
 }
 
-mc::Report report(const mc::CellTests& t) {
+mc::Report report(const mc::Findings& t) {
   mc::Report r;
   r.checks = t.checks;
   return r;
@@ -76,7 +77,7 @@ TEST(CellTests, WrongExponentsSpikesAndSteps_Fail) {
 TEST(CellTests, DetectableError_IsRejected) {
   auto cells = uniform_cells(256);
   fill(cells, 6, 100000);
-  const mc::CellTests stated = mc::test_cells(cells, 1, 0.01);
+  const mc::Findings stated = mc::test_cells(cells, 1, 0.01);
   int caught = 0, caught_cell = 0;
   for (int run = 0; run < 100; ++run) {
     mc::Pcg random(static_cast<std::uint64_t>(run) + 50);
@@ -147,6 +148,33 @@ TEST(CellTests, UncertainCell_FailsNoOtherCell) {
   cells[0].variance = 9e-4;
   cells[0].observed = cells[0].squares = 5e5;
   for (const mc::Check& c : test_cells(cells, 0, 0.01).checks) EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.name;
+}
+
+// Rows with equal names spend one share. A table of too many shares spends alpha, not more.
+TEST(ShareOf, RowsOfEqualName_DivideOneShare) {
+  mc::Subject s;
+  s.dim = 2;
+  const auto fourier = [&] {
+    double sum = 0;
+    for (const mc::FitTestRow& row : mc::fit_tests())
+      if (std::string_view(row.name) == "Fourier" && row.applies(s)) sum += share_of(row, s);
+    return sum;
+  };
+  EXPECT_EQ(fourier(), 0.05);
+  s.inverted = [](std::uint64_t, std::size_t) { return std::vector<mc::Subject::Coordinates>{}; };
+  EXPECT_EQ(fourier(), 0.05);
+}
+
+TEST(PrependFinding, OnlyLeadingFailedChecks_BeginWithIt) {
+  mc::Check pass, likely, other, certain;
+  likely.verdict = other.verdict = certain.verdict = mc::Verdict::fail;
+  likely.p = other.p = 1e-5;
+  certain.p = 1e-12;
+  mc::prepend_finding({&pass, &likely, &other, &certain}, "found");
+  EXPECT_EQ(pass.detail, "");
+  EXPECT_EQ(likely.detail, "found; ");
+  EXPECT_EQ(other.detail, "");
+  EXPECT_EQ(certain.detail, "found; ");
 }
 
 } // namespace
