@@ -6,6 +6,8 @@
 ///     (docs/methods/bsdf-conventions.md).
 ///   EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain[, mc::SubjectOptions]) : the statistical tests; sample(u) or
 ///     sample(mc::Pcg&) returns a point or an optional point.
+///   EXPECT_DISTRIBUTION(d, law[, mc::SubjectOptions]) : the statistical tests of a generator with the interface of
+///     <random>, d(engine). `law` is its density, the probability of an integer, or mc::ClaimedCdf(cdf).
 ///   EXPECT_MEAN(values, value[, alpha = 0.001])   : Student's t test of a range of numbers.
 /// A failure begins with the finding: observed value, expected value and place (u, direction with its angles, or cell).
 /// The likely cause and the check follow. The last line gives the number of other failed checks and the call that
@@ -13,6 +15,7 @@
 
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/laws.h>
+#include <mc/check/subject/generator.h>
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
 #include <mc/stats/t_test.h>
@@ -33,6 +36,7 @@ constexpr bool is_bsdf = BsdfOver<std::remove_cvref_t<Bsdf>, typename std::remov
 template <class Bsdf, class V>
 constexpr bool
     checks_bsdf_members = checks_members<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>();
+template <class D> constexpr bool is_generator = Generator<std::remove_cvref_t<D>>;
 template <class Draw, class D>
 constexpr bool draws_points =
     std::invocable<Draw, Pcg&> || std::invocable<Draw, typename std::remove_cvref_t<D>::UnitPoint>;
@@ -81,6 +85,20 @@ testing::AssertionResult samples_match_pdf(const char* expression, Sample sample
   if constexpr (detail::draws_points<Sample, D>)
     return assert_passed(check_subject(make_subject(make_distribution(expression, domain, sample, pdf)), options), {});
   else return testing::AssertionFailure();
+}
+
+/// Result of EXPECT_DISTRIBUTION.
+template <class D, class Law>
+testing::AssertionResult has_law(const char* expression, const D& d, const Law& law,
+                                 const SubjectOptions& options = {}) {
+  if constexpr (detail::is_generator<D>) {
+    try {
+      return assert_passed(check_subject(make_generator_subject(expression, d, law), options), {});
+    } catch (const Error& e) {
+      return testing::AssertionFailure() << expression << ": " << e.what();
+    }
+  }
+  return testing::AssertionFailure();
 }
 
 /// Result of EXPECT_MEAN.
@@ -155,5 +173,19 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
     case 0:                                                                                                            \
     default:                                                                                                           \
       EXPECT_TRUE(::mc::samples_match_pdf(mc_expression, sample, pdf, domain __VA_OPT__(, ) __VA_ARGS__))
+
+#define EXPECT_DISTRIBUTION(d, law, ...)                                                                               \
+  switch (constexpr bool mc_fits = ::mc::detail::is_generator<decltype(d)>; 0)                                         \
+  case 0:                                                                                                              \
+  default:                                                                                                             \
+    switch (const char* mc_expression =                                                                                \
+                [] {                                                                                                   \
+                  static_assert(mc_fits, "a generator must be copyable, with d(engine), a number");                    \
+                  return #d;                                                                                           \
+                }();                                                                                                   \
+            0)                                                                                                         \
+    case 0:                                                                                                            \
+    default:                                                                                                           \
+      EXPECT_TRUE(::mc::has_law(mc_expression, d, law __VA_OPT__(, ) __VA_ARGS__))
 
 #define EXPECT_MEAN(values, value, ...) EXPECT_TRUE(::mc::has_mean(#values, values, value __VA_OPT__(, ) __VA_ARGS__))

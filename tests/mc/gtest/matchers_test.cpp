@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace {
 
 using testing::HasSubstr;
@@ -18,8 +20,16 @@ TEST(Matchers, WarpLaws) {
   EXPECT_WARP_LAWS(mc::CosineHemisphere<float>{}, few);
 }
 
-// A grey diffuse BSDF with the given albedo. Its samples state the value for
-// `stated`, which is wrong if it differs.
+TEST(Matchers, Distribution_NamesTheGeneratorAndItsFinding) {
+  const std::exponential_distribution<double> mine(1.05);
+  const auto pdf = [](double x) { return std::exp(-x); };
+  EXPECT_DISTRIBUTION(std::exponential_distribution<double>(), pdf, {.samples = 50'000});
+  const testing::AssertionResult wrong = mc::has_law("mine", mine, pdf, {.samples = 50'000});
+  EXPECT_FALSE(wrong);
+  EXPECT_THAT(wrong.message(), HasSubstr("mine: fail"));
+}
+
+// A grey diffuse BSDF with the given albedo. Its samples state the value for `stated`, which is wrong if it differs.
 struct Grey {
   struct Sample {
     mc::Vec3<double> wi;
@@ -49,8 +59,7 @@ TEST(Matchers, BsdfLaws) {
   EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{1.1, 1.1}, wo, few).message(), HasSubstr("energy <= 1"));
 }
 
-// The same grey as renderers write it that return f |cos wi|, with the weight f
-// |cos wi| / pdf.
+// The same grey as renderers write it that return f |cos wi|, with the weight f |cos wi| / pdf.
 struct GreyWithCosine : Grey {
   struct Sample {
     mc::Vec3<double> wi;
@@ -91,10 +100,10 @@ TEST(Matchers, SamplesMatchPdf) {
   const testing::AssertionResult wrong = mc::samples_match_pdf(
       "sampler", sampler, [](double x) { return 3 * x * x; }, mc::Interval<double>(0, 1), few);
   EXPECT_FALSE(wrong);
-  EXPECT_THAT(wrong.message(), testing::AllOf(testing::StartsWith("sampler: fail, p < 1e-300 (50000 "
-                                                                  "samples, alpha 0.001): region x 0 to "),
-                                              HasSubstr(" expected (z = "), HasSubstr("likely cause: shape"),
-                                              HasSubstr(" more checks fail")));
+  EXPECT_THAT(
+      wrong.message(),
+      testing::AllOf(testing::StartsWith("sampler: fail, p < 1e-300 (50000 samples, alpha 0.001): region x 0 to "),
+                     HasSubstr(" expected (z = "), HasSubstr("likely cause: shape"), HasSubstr(" more checks fail")));
 }
 
 TEST(Matchers, Mean) {
