@@ -145,7 +145,7 @@ void count_samples(const std::optional<Expectation>& expected, const std::vector
 
 // Runs all tests: the table decides which.
 JudgedTests run_tests(const FitSetup& setup, FitCounts& counts, PlotData* evidence) {
-  const auto& [s, options, pilot] = setup;
+  const Subject& s = setup.subject;
   const std::vector<RunningTest> tests = start_tests(setup);
   std::optional<Expectation> expected;
   if (s.dim > 0) expected.emplace(expect_cells(setup, tests, counts));
@@ -156,14 +156,14 @@ JudgedTests run_tests(const FitSetup& setup, FitCounts& counts, PlotData* eviden
     on_progress = [&](const DrawStats& draws) {
       count_outcomes(draws, counts);
       Report then;
-      then.checks = test_cells(counts.cells, s.dim, options.alpha, s.axes).checks;
+      then.checks = test_cells(counts.cells, s.dim, setup.options.alpha, s.axes).checks;
       evidence->p_after.push_back({draws.draws, then.p()});
     };
   count_samples(expected, tests, counts, on_progress);
   counts.mass =
       claimed_mass(s, expected ? expected->cubature : CubatureResult{}, expected ? expected->total : EstimatedMass{},
                    expected ? expected->uncapped : EstimatedMass{}, counts.weights);
-  if (s.inverted) counts.inverted = s.inverted(inverted_stream(options), inverted_count(options));
+  if (s.inverted) counts.inverted = s.inverted(inverted_stream(setup.options), inverted_count(setup.options));
   JudgedTests judged = judge_tests(tests, counts);
   for (const ExplanationRow& row : explanations()) row.explain(counts, judged.findings);
   return judged;

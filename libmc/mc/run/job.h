@@ -51,14 +51,9 @@ template <Job J> AnyJob any_job(J& job, std::string name) {
   any.absorb = [&job](std::size_t unit, AnyResult result) {
     job.absorb(unit, std::move(*static_cast<Result*>(result.get())));
   };
-  any.may_start = [&job] {
-    if constexpr (requires { job.may_start(); }) return bool(job.may_start());
-    else return true;
-  };
-  any.needs_results = [&job] {
-    if constexpr (requires { job.needs_results(); }) return bool(job.needs_results());
-    else return true;
-  };
+  any.may_start = any.needs_results = [] { return true; };
+  if constexpr (requires { job.may_start(); }) any.may_start = [&job] { return bool(job.may_start()); };
+  if constexpr (requires { job.needs_results(); }) any.needs_results = [&job] { return bool(job.needs_results()); };
   if constexpr (requires { job.skip(std::size_t{0}); }) any.skip = [&job](std::size_t unit) { job.skip(unit); };
   any.write_result = [](ArchiveWriter& a, const AnyResult& result) { a(*static_cast<const Result*>(result.get())); };
   any.read_result = [](ArchiveReader& a) -> AnyResult {

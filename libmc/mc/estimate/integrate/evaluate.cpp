@@ -168,9 +168,9 @@ class Evaluator::EvaluateJob {
     for (Sums& sums : result.chunks) results_[unit / units_].merge(std::move(sums));
     if (recorded_of(unit) == 0) return;
     const auto at = static_cast<std::ptrdiff_t>(unit / units_ * recorded_ + begin_of(unit));
-    const auto width = static_cast<std::ptrdiff_t>(dim()), outputs = static_cast<std::ptrdiff_t>(evaluator_.primary());
+    const auto width = static_cast<std::ptrdiff_t>(dim()), kept = static_cast<std::ptrdiff_t>(evaluator_.primary());
     std::ranges::copy(result.record.points, keep_.record->points.begin() + at * width);
-    std::ranges::copy(result.record.values, keep_.record->values.begin() + at * outputs);
+    std::ranges::copy(result.record.values, keep_.record->values.begin() + at * kept);
     std::ranges::copy(result.record.weights, keep_.record->weights.begin() + at);
   }
   template <class Archive> void archive(Archive& a) {
