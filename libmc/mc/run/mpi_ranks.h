@@ -9,6 +9,10 @@
 
 namespace mc {
 
+namespace detail {
+class MpiLinks;
+}
+
 /// Several ranks that run the same program and compute the units of its jobs together.
 ///   jobs  : every rank calls run_job() for the same jobs in the same order. Rank 0 gives units to ranks that ask for
 ///           them, absorbs results in order, and saves checkpoints. After a job, all ranks have its state, with the
@@ -40,11 +44,10 @@ class MpiRanks {
   bool finish();
 
  private:
-  class Links;
   class First;
   class Other;
 
-  std::unique_ptr<Links> links_;
+  std::unique_ptr<detail::MpiLinks> links_;
 };
 
 } // namespace mc

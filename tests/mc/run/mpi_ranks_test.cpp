@@ -1,5 +1,3 @@
-// MpiRanks: this test starts itself by mpirun, as a program with several jobs.
-
 #include <gmock/gmock.h>
 
 #ifdef MC_TEST_MPI
@@ -9,9 +7,8 @@
 #include <mc/run/mpi_ranks.h>
 
 #include <mc/core/file.h>
+#include <mc/run/mpi_program.h>
 #include <mc/run/sum_job.h>
-#include <support/files.h>
-#include <support/run.h>
 
 #include <chrono>
 #include <csignal>
@@ -47,6 +44,7 @@ int program(const std::string& name, mc::MpiRanks& ranks) {
     }
     return 0;
   }
+  if (name == "early death" && ranks.rank() == 1) std::raise(SIGKILL);
   SumJob job;
   job.before = [&](std::size_t unit) {
     if (name == "error" && unit == 3) throw mc::Error("unit 3");
@@ -56,7 +54,6 @@ int program(const std::string& name, mc::MpiRanks& ranks) {
   };
   const std::string file = std::string(std::getenv("MC_TEST_FOLDER")) + "/a.ckpt";
   mc::Checkpoint checkpoint({.file = ranks.rank() == 0 ? file : ""}, {});
-  if (name == "other job") job.stages = 6 + std::uint64_t(ranks.rank());
   try {
     mc::run_job(job, {.checkpoint = &checkpoint,
                       .executor = executor,
@@ -73,56 +70,54 @@ int program(const std::string& name, mc::MpiRanks& ranks) {
   return 0;
 }
 
-struct MpiRanks : support::ScratchTest {
-  support::ProcessResult run(const std::string& name, int ranks, const std::string& options = "") const {
-    return support::run(
-        fmt::format("MC_TEST_FOLDER='{}' MC_TEST_PROGRAM='{}' mpirun --oversubscribe --allow-run-as-root {} "
-                    "-n {} '{}'",
-                    path(""), name, options, ranks, std::filesystem::read_symlink("/proc/self/exe").string()));
-  }
-};
+const bool has_rank_programs = [] {
+  bool all = true;
+  for (const char* name : {"jobs", "integrate", "error", "death", "early death", "other name"})
+    all = support::add_mpi_program(name,
+                                   [name] {
+                                     mc::MpiRanks ranks(MPI_COMM_WORLD);
+                                     const int code = program(name, ranks);
+                                     std::fflush(stdout);
+                                     if (!ranks.finish()) MPI_Abort(MPI_COMM_WORLD, code);
+                                     return code;
+                                   }) &&
+          all;
+  return all;
+}();
+
+using MpiRanks = support::MpiTest;
 
 TEST_F(MpiRanks, AnyNumber_GivesTheSameBits) {
+  ASSERT_TRUE(has_rank_programs);
   for (const int ranks : {1, 2, 3, 7})
     for (const char* name : {"jobs", "integrate"}) {
-      const support::ProcessResult r = run(name, ranks);
+      const support::ProcessResult r = run_mpi(name, ranks);
       EXPECT_EQ(r.exit_code, 0) << name << ' ' << ranks << '\n' << r.output;
     }
 }
 
 TEST_F(MpiRanks, ErrorOfAUnit_IsThatOfEveryRank) {
-  const support::ProcessResult r = run("error", 3);
+  const support::ProcessResult r = run_mpi("error", 3);
   EXPECT_EQ(r.exit_code, 4) << r.output;
   for (const char* text : {"rank 0: unit 3", "rank 1: unit 3", "rank 2: unit 3"})
     EXPECT_THAT(r.output, HasSubstr(text));
 }
 
 TEST_F(MpiRanks, DifferentPrograms_AreRefused) {
-  const support::ProcessResult r = run("other name", 2);
+  const support::ProcessResult r = run_mpi("other name", 2);
   EXPECT_EQ(r.exit_code, 4) << r.output;
   EXPECT_THAT(r.output, HasSubstr("runs the job '1 x', and rank 0 the job '1 sum': the ranks have different inputs"));
 }
 
+// Within a stage, and before a rank has asked for its first unit.
 TEST_F(MpiRanks, DeadRank_IsNamedAfterACheckpoint) {
-  run("death", 3, "--enable-recovery");
-  EXPECT_THAT(mc::read_file(path("a.ckpt.lost")), testing::ContainsRegex("rank 1 \\(process [0-9]+ on [^)]+\\) died"));
-  EXPECT_TRUE(std::filesystem::exists(path("a.ckpt")));
+  for (const char* name : {"death", "early death"}) {
+    run_mpi(name, 3, "--enable-recovery");
+    EXPECT_THAT(mc::read_file(path("a.ckpt.lost")), testing::ContainsRegex("rank 1 \\(process [0-9]+ on [^)]+\\) died"))
+        << name;
+    for (const char* file : {"a.ckpt", "a.ckpt.lost"}) EXPECT_TRUE(std::filesystem::remove(path(file))) << name << file;
+  }
 }
-
-// Runs as a rank before main() of GoogleTest, where mpirun started this program.
-const bool is_rank = [] {
-  const char* name = std::getenv("MC_TEST_PROGRAM");
-  if (!name || !std::getenv("OMPI_COMM_WORLD_SIZE")) return false;
-  int provided = 0;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
-  auto ranks = std::make_unique<mc::MpiRanks>(MPI_COMM_WORLD);
-  const int code = program(name, *ranks);
-  std::fflush(stdout);
-  if (!ranks->finish()) MPI_Abort(MPI_COMM_WORLD, code);
-  ranks.reset();
-  MPI_Finalize();
-  std::_Exit(code);
-}();
 
 } // namespace
 
