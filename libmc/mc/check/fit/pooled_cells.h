@@ -33,6 +33,8 @@ struct PooledCells {
   }
   /// The same for all cells.
   double dispersion() const { return dispersion(0, cells.size()); }
+  /// Returns the variance of a cell's count: of the count itself, and of its estimated probability.
+  double variance_of(const Cell& cell) const { return n * dispersion() * cell.p + n * n * cell.variance; }
   /// Returns whether the counts allow a test: two cells or more, and a sample.
   bool is_testable() const { return cells.size() >= 2 && n > 0; }
 };

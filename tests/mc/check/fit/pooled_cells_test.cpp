@@ -31,6 +31,15 @@ TEST(PooledCells, WrongTotal_IsNormalised) {
   EXPECT_DOUBLE_EQ(pooled.dispersion(), 1);
 }
 
+TEST(PooledCells, VarianceOfACell_HasBothParts) {
+  std::vector<mc::Cell> cells = cells_of({0.25, 0.75}, 100);
+  for (mc::Cell& c : cells) c.squares *= 2;
+  cells[0].variance = 1e-4;
+  const mc::PooledCells pooled = mc::pool(cells);
+  EXPECT_DOUBLE_EQ(pooled.variance_of(pooled.cells[0]), 2 * 25 + 100 * 100 * 1e-4);
+  EXPECT_DOUBLE_EQ(pooled.variance_of(pooled.cells[1]), 2 * 75);
+}
+
 TEST(PooledCells, OneCell_AllowsNoTest) { EXPECT_FALSE(mc::pool(cells_of({1}, 100)).is_testable()); }
 
 TEST(PooledCells, FactorAcrossCells_FollowsTheFormula) {

@@ -18,8 +18,8 @@ std::optional<Check> test_correlation(const PooledCells& cells, const std::vecto
     mean += c.p * score(c);
     sum += c.observed * score(c);
   }
-  const double n = cells.n, dispersion = cells.dispersion();
-  for (const Cell& c : cells.cells) variance += (n * dispersion * c.p + n * n * c.variance) * sqr(score(c) - mean);
+  const double n = cells.n;
+  for (const Cell& c : cells.cells) variance += cells.variance_of(c) * sqr(score(c) - mean);
   if (!(variance > 16)) return {};
   const double statistic = sqr(sum - n * mean) / variance;
   return statistical_check(fmt::format("correlation, {} and {}", axis_name(named, a), axis_name(named, b)),

@@ -33,11 +33,11 @@ std::optional<Check> test_tails(const PooledCells& cells, const std::string& nam
     scores.push_back(s);
   }
   // Covariance of the scores under the claimed probabilities.
-  const double n = cells.n, dispersion = cells.dispersion();
+  const double n = cells.n;
   std::array<double, 3> v{};
   for (std::size_t k = 0; k < scores.size(); ++k) {
     const double a = scores[k][0] - mean[0], b = scores[k][1] - mean[1];
-    const double variance = n * dispersion * cells.cells[k].p + n * n * cells.cells[k].variance;
+    const double variance = cells.variance_of(cells.cells[k]);
     v[0] += variance * a * a;
     v[1] += variance * a * b;
     v[2] += variance * b * b;
