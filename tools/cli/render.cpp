@@ -209,14 +209,16 @@ void refuse_inputs(const std::set<std::string>& files, const RenderCommandOption
   require_distinct_files(used);
 }
 
-void warn_where_light_is_missed(const render::SceneFile& read, const render::RenderOptions& settings) {
-  if (settings.aov.kind != render::Aov::radiance) return;
+// Returns the text of missing_light_text(), for the metadata.
+std::string warn_where_light_is_missed(const render::SceneFile& read, const render::RenderOptions& settings) {
+  if (settings.aov.kind != render::Aov::radiance) return {};
   if (misses_light(read.scene, settings.strategy, settings.max_depth))
     warn("the strategy {} takes directions toward lights and importance targets only: it misses the light of other "
          "surfaces and of the sky; use mis",
          settings.strategy.name);
-  if (const std::string missing = missing_light_text(read, settings.strategy, settings.max_depth); !missing.empty())
-    warn("{}", missing);
+  std::string missing = missing_light_text(read, settings.strategy, settings.max_depth);
+  if (!missing.empty()) warn("{}", missing);
+  return missing;
 }
 
 // Throws Error for outputs that cannot be written.
@@ -285,11 +287,12 @@ struct RenderWork {
   bool replaces_resumed;    // whether the picture of --resume is the output
   std::optional<ResumeState> resumed;
   render::ToneMapping tone;
+  std::string missing_light; // see warn_where_light_is_missed()
 };
 
 // Completes the picture, and writes it. Returns the exit code.
 int write_picture(RenderWork& work, render::RenderResult& result, const render::RenderOptions& settings) {
-  const auto& [options, read, fingerprint, file, output, replaces_resumed, resumed, tone] = work;
+  const auto& [options, read, fingerprint, file, output, replaces_resumed, resumed, tone, missing_light] = work;
   if (resumed ? result.estimates == 0 : result.missing_rows == result.image.height) {
     fmt::print("interrupted before {}; {} {}\n", resumed ? "every pixel had a new sample" : "a row was rendered",
                output, resumed ? "is unchanged" : "was not written");
@@ -302,9 +305,7 @@ int write_picture(RenderWork& work, render::RenderResult& result, const render::
     warn("{}", invalid);
   }
   add_metadata(result, from);
-  const std::string missing = missing_light_text(read, settings.strategy, settings.max_depth);
-  if (!missing.empty() && settings.aov.kind == render::Aov::radiance)
-    result.image.metadata["carlo.missing_light"] = missing;
+  if (!missing_light.empty()) result.image.metadata["carlo.missing_light"] = missing_light;
   for (const auto& [key, value] : fingerprint) result.image.metadata[key] = value;
   if (resumed) accumulate_into(*resumed, result);
   if (options.layers) {
@@ -350,7 +351,7 @@ int run_render(const RenderCommandOptions& options) {
                   (options.tone.empty() && options.exposure.empty()),
               "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
               output);
-  warn_where_light_is_missed(read, settings);
+  const std::string missing_light = warn_where_light_is_missed(read, settings);
   const render::Crop part = crop_of(settings);
   ProgressLine progress;
   std::optional<RenderReport> report;
@@ -375,7 +376,7 @@ int run_render(const RenderCommandOptions& options) {
   settings.checkpoint = session.checkpoint();
   settings.executor = session.executor();
   require_memory(scene, settings);
-  RenderWork work{options, read, fingerprint, file, output, picture == output, std::move(resumed), tone};
+  RenderWork work{options, read, fingerprint, file, output, picture == output, std::move(resumed), tone, missing_light};
   return session.run([&] {
     render::RenderResult result = render::render(read.scene, settings);
     progress.clear();

@@ -64,10 +64,12 @@ std::string missing_light_text(const render::SceneFile& file, const render::Stra
   if (!missing || file.light_names.empty()) return {};
   const std::string what = fmt::format("light of the {} by way of smooth surfaces, such as the {}, is missing",
                                        file.light_names[missing->light], file.surface_names[missing->surface]);
-  return missing->is_partial
-             ? what + " where it is seen in a mirror or through glass; a small lamp in place of the light mends that"
-             : what +
-                   fmt::format("; {} cannot find it: use mis+lt, or a small lamp in place of the light", strategy.name);
+  if (missing->is_partial)
+    return what + " where it is seen in a mirror or through glass; a small lamp in place of the light mends that";
+  const bool is_found_by_light_paths =
+      missing_light(file.scene, render::strategy_from("mis+lt"), max_depth)->is_partial;
+  return what + fmt::format("; {} cannot find it: use {}a small lamp in place of the light", strategy.name,
+                            is_found_by_light_paths ? "mis+lt, or " : "");
 }
 
 std::string samples_per_second(const render::RenderResult& result) {

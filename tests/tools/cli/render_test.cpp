@@ -344,6 +344,14 @@ TEST_F(RenderCommand, SunThroughGlass_IsMissedWithAWarning) {
   EXPECT_THAT(render::read_image(path("out.exr")).metadata.at("carlo.missing_light"), HasSubstr(words));
   EXPECT_THAT(warned(""), HasSubstr(words + " where it is seen in a mirror or through glass"));
   EXPECT_THAT(warned(" --strategy mis --max-depth 2"), Not(HasSubstr("missing")));
+  // Through a filter this wide, light paths do not pay.
+  std::string wide = mc::read_file(scene);
+  wide.replace(wide.find("</sensor>"), 0, R"(<film type="hdrfilm"><rfilter type="box"><float name="radius" value="99"/>
+    </rfilter></film>)");
+  write("slab.xml", wide);
+  for (const char* name : {"mis", "mis+lt"})
+    EXPECT_THAT(warned(std::string(" --strategy ") + name),
+                HasSubstr(fmt::format("is missing; {} cannot find it: use a small lamp in place of the light", name)));
 }
 
 TEST_F(RenderCommand, StrategyThatMissesLight_IsWarnedAbout) {
