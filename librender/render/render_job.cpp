@@ -363,13 +363,17 @@ void RenderJob::report_progress() const {
   const double fraction =
       options_.seconds ? elapsed() / *options_.seconds : (mean_ + share * (pass_.mean - mean_)) / pass_.wanted;
   options_.progress({std::min(fraction, 1.0), total_.samples + pass_.stats.samples, total_.rays, elapsed(),
-                     error_.value, outlier_dominated_, [this] { return image_so_far(); }});
+                     error_.value, outlier_dominated_, [this] {
+                       int missing_rows = 0;
+                       return image_so_far(missing_rows);
+                     }});
 }
 
-// Without the samples of an unfinished pass with splats.
-Image RenderJob::image_so_far() const {
+// Without the samples of an unfinished pass with splats. Within the first pass, missing rows repeat others; their number
+// is in `missing_rows`.
+Image RenderJob::image_so_far(int& missing_rows) const {
   Image image = film_.image();
-  if (mean_ == 0) repeat_rows(film_, image);
+  missing_rows = mean_ == 0 ? repeat_rows(film_, image) : 0;
   image.estimates = std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
   return image;
 }
@@ -381,14 +385,12 @@ RenderResult RenderJob::result(bool is_done) {
     stage_ = Stage::none;
   }
   RenderResult result;
-  result.image = film_.image();
+  result.image = image_so_far(result.missing_rows);
   result.partial = !is_done;
-  if (result.partial && mean_ == 0) result.missing_rows = repeat_rows(film_, result.image);
   result.samples = total_.samples;
   result.rays = total_.rays;
   result.spp = double(total_.samples) / double(taken_.size());
-  result.estimates = result.image.estimates =
-      std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
+  result.estimates = result.image.estimates;
   result.seconds = elapsed();
   result.cpu_seconds = cpu_seconds_;
   const RelativeErrors errors = film_.relative_errors(result.image);

@@ -112,7 +112,7 @@ class RenderJob {
   void count_light_paths();
   void estimate_error();
   void report_progress() const;
-  Image image_so_far() const;
+  Image image_so_far(int& missing_rows) const;
   std::optional<Result> compute_samples(std::size_t unit) const;
   void count(std::size_t unit);
   RowPart row_part(std::size_t unit) const;

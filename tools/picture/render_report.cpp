@@ -1,4 +1,5 @@
 #include <picture/render_report.h>
+#include <terminal/progress.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -14,11 +15,6 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 constexpr double pause = 2, most_share = 0.05; // seconds between pages; share of the time that they take
-
-std::string duration_text(double seconds) {
-  if (seconds < 90) return fmt::format("{:.0f} s", seconds);
-  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
-}
 
 } // namespace
 
@@ -36,8 +32,8 @@ void RenderReport::show(const render::Progress& p) {
   if (begin < next_ || !p.image) return;
   progress_.fraction = p.fraction;
   const double left = p.fraction > 0 ? p.seconds * (1 / p.fraction - 1) : NAN;
-  progress_.text = fmt::format("{:.0f} % in {}{}", 100 * p.fraction, duration_text(p.seconds),
-                               std::isfinite(left) ? ", about " + duration_text(left) + " remain" : "");
+  progress_.text = fmt::format("{:.0f} % in {}{}", 100 * p.fraction, format_seconds(p.seconds),
+                               std::isfinite(left) ? ", about " + format_seconds(left) + " remain" : "");
   try {
     write(p.image(), p.seconds, p.relative_error);
   } catch (const mc::Error&) {
@@ -52,7 +48,7 @@ void RenderReport::finish(const render::RenderResult& result) {
   progress_.fraction = 1;
   progress_.is_running = false;
   progress_.text = fmt::format("{} in {}: {:.4g} samples per pixel", result.partial ? "interrupted" : "done",
-                               duration_text(result.seconds), result.spp);
+                               format_seconds(result.seconds), result.spp);
   write(result.image, result.seconds, result.relative_error);
 }
 

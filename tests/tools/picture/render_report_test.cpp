@@ -28,7 +28,7 @@ TEST_F(RenderReportTest, KeepsAPageUntilTheEnd) {
   };
   report.show({0.25, 1000, 5000, 30, 0.02, 0, image});
   const std::string page = mc::read_file(path("page/index.html"));
-  EXPECT_THAT(page, AllOf(HasSubstr("25 % in 30 s, about 2 min remain"), HasSubstr("[[30.0,0.02]]"),
+  EXPECT_THAT(page, AllOf(HasSubstr("25 % in 30.0 s, about 1 min 30 s remain"), HasSubstr("[[30.0,0.02]]"),
                           HasSubstr("http-equiv=\"refresh\""), HasSubstr("\"x\":7")));
   report.show({0.5, 2000, 10000, 60, 0.01, 0, image});
   EXPECT_EQ(images, 1) << "within two seconds";
@@ -39,7 +39,7 @@ TEST_F(RenderReportTest, KeepsAPageUntilTheEnd) {
   result.relative_error = 0.005;
   report.finish(result);
   EXPECT_THAT(mc::read_file(path("page/index.html")),
-              AllOf(HasSubstr("done in 2 min: 64 samples per pixel"), HasSubstr("[[30.0,0.02],[120.0,0.005]]"),
+              AllOf(HasSubstr("done in 2 min 00 s: 64 samples per pixel"), HasSubstr("[[30.0,0.02],[120.0,0.005]]"),
                     Not(HasSubstr("http-equiv"))));
 }
 
