@@ -369,8 +369,8 @@ void RenderJob::report_progress() const {
                      }});
 }
 
-// Without the samples of an unfinished pass with splats. Within the first pass, missing rows repeat others; their number
-// is in `missing_rows`.
+// Without the samples of an unfinished pass with splats. Within the first pass, missing rows repeat others; their
+// number is in `missing_rows`.
 Image RenderJob::image_so_far(int& missing_rows) const {
   Image image = film_.image();
   missing_rows = mean_ == 0 ? repeat_rows(film_, image) : 0;
