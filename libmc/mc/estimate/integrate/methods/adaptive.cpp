@@ -16,7 +16,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t first_attempt = 4096;     // calls before the first density is learned
 constexpr double worth_an_attempt = 4;            // times the calls so far that must be missing
-constexpr double early = 64;                      // times the calls so far: while more are missing, forecasts improve
+constexpr double early = 64;                      // times the calls so far: while more are missing, the rate of
+                                                  // interlaced points is not yet known
 constexpr double evenness = 0.5;                  // error of evenly spread points over that of independent ones
 constexpr double advantage = 1.25;                // by which a new density must be forecast to win: forecasts err
 constexpr double worth_another = 1.5;             // fall of the error that promises more
@@ -29,6 +30,8 @@ double call_time(const Run& run, bool adapted) {
   return run.options().call_ns + (adapted ? 20 + 6 * d : 5 + d);
 }
 constexpr double learning_time = 20; // of a recorded coordinate [ns], for each attempt
+
+Stream stream_of(const Proposal& proposal) { return proposal.density ? Stream::adapted : Stream::rqmc; }
 
 // The errors of the primary outputs at a number of calls, how fast they fall, and what a call costs.
 struct Forecast {
@@ -56,12 +59,10 @@ std::vector<double> wanted_errors(const Run& run, const Means& means) {
 }
 
 Forecast forecast(const Run& run, const Replicates& r) {
-  const bool adapted = r.proposal().density != nullptr;
   Forecast f{{},
              static_cast<double>(r.calls()),
-             std::clamp(r.rate(), least_rate,
-                        run.interlaced(adapted ? Stream::adapted : Stream::rqmc) ? interlaced_rate : most_rate),
-             call_time(run, adapted)};
+             std::clamp(r.rate(), least_rate, run.interlaced(stream_of(r.proposal())) ? interlaced_rate : most_rate),
+             call_time(run, r.proposal().density != nullptr)};
   for (std::size_t k = 0; k < run.primary(); ++k) {
     const Mean& m = r.means()[k];
     const bool blind =
@@ -167,7 +168,7 @@ Outcome run_adaptive(Run& run, Method wanted) {
   MixtureRecord points;
   std::optional<Replicates> fallback; // through the density before, until as many calls show which is better
   const auto replicates = [&](Proposal proposal) {
-    const Stream stream = proposal.density ? Stream::adapted : Stream::rqmc;
+    const Stream stream = stream_of(proposal);
     return Replicates(run, stream, round++, count, std::move(proposal));
   };
   Proposal first;
@@ -202,7 +203,7 @@ Outcome run_adaptive(Run& run, Method wanted) {
     const bool forced = must || !std::isfinite(error) || (r.proposal().density && improving);
     hard = hard || !std::isfinite(error);
     std::optional<Proposal> next;
-    if (!forced && missing > early * calls) {
+    if (!forced && missing > early * calls && run.interlaced(stream_of(r.proposal()))) {
       attempt = 2 * r.calls();
       continue;
     }
