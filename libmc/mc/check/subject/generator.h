@@ -1,5 +1,5 @@
 #pragma once
-/// Subjects from generators with the interface of <random>: d(engine) returns a number.
+/// Subjects from generators with the interface of the standard library: d(engine) returns a number.
 
 #include <mc/check/subject/make_distribution.h>
 #include <mc/random/pcg.h>
@@ -28,7 +28,7 @@ class RandomEngine {
   Pcg random_;
 };
 
-/// A copyable object d with d(engine), a number. Members min() and max() bound the results, as in <random>.
+/// A copyable object d with d(engine), a number. Members min() and max() bound the results, as in the standard library.
 template <class D>
 concept Generator = std::copy_constructible<D> && requires(D d, RandomEngine& engine) {
   requires std::is_arithmetic_v<std::remove_cvref_t<decltype(d(engine))>>;
