@@ -71,7 +71,7 @@ Array to_unit(const BoundDomain& d, const ArrayLike& x) {
 
 BoundDomain parse(const std::string& text) {
   const carlo::ParsedDomain parsed = carlo::parse_domain(text, carlo::unknown_quartiles, carlo::Rounding::doubles);
-  mc::require(parsed.outcomes == 0, "Domain: '{}' has discrete outcomes; a set of points is needed", text);
+  mc::require(!parsed.outcomes.any(), "Domain: '{}' has discrete outcomes; a set of points is needed", text);
   return {parsed.chart, parsed.text};
 }
 

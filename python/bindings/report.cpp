@@ -18,7 +18,7 @@ namespace {
 using py::arg;
 
 // The member of every cell, as an array of shape (cells, dim).
-Array corners(const mc::Report& r, std::array<double, 3> mc::CellCount::*member) {
+Array corners(const mc::Report& r, mc::PerAxis<double> mc::CellCount::*member) {
   const auto& cells = r.evidence->cells;
   const std::size_t dim = r.axes.size();
   Array array({cells.size(), dim});

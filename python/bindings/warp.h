@@ -31,7 +31,7 @@ struct AnyWarp {
   RowFunction* sample;
   RowFunction* pdf;
   RowFunction* invert; ///< null without an inverse
-  std::array<std::vector<double>, 3> breaks = {};
+  mc::PerAxis<std::vector<double>> breaks = {};
 
   std::size_t uniforms() const { return static_cast<std::size_t>(domain.any.dim); }
   std::size_t coordinates() const { return static_cast<std::size_t>(domain.any.point_size); }
@@ -130,12 +130,14 @@ template <int Dim, int Size> struct PartDomain {
   std::shared_ptr<const mc::AnyDomain> any;
 
   Point from_unit(const UnitPoint& v) const {
-    return mc::detail::to_point<Point>(any->from_unit(mc::detail::to_array<double, 3>(v)).x);
+    return mc::detail::to_point<Point>(any->from_unit(mc::detail::to_array<double, mc::max_chart_dim>(v)).x);
   }
   UnitPoint to_unit(const Point& x) const {
     return mc::detail::to_point<UnitPoint>(any->to_unit(mc::detail::to_array<double>(x)));
   }
-  double jacobian(const UnitPoint& v) const { return any->jacobian(mc::detail::to_array<double, 3>(v)); }
+  double jacobian(const UnitPoint& v) const {
+    return any->jacobian(mc::detail::to_array<double, mc::max_chart_dim>(v));
+  }
   bool contains(const Point& x) const { return any->contains(mc::detail::to_array<double>(x)); }
   template <mc::Real T> PartDomain cast() const { return *this; }
 };

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace support {
 
 /// |dx/dv| at v by central differences with 50 digits. It is the root of the Gram determinant, which covers surfaces in
@@ -15,7 +17,7 @@ namespace support {
 template <mc::Domain D> mc::Oracle numeric_jacobian(const D& exact, const typename D::UnitPoint& v) {
   using mc::Oracle;
   const Oracle h(1e-20);
-  std::array<std::array<Oracle, 3>, 3> slope{}; // derivatives of x along each axis of the chart
+  std::array<decltype(mc::detail::to_array<Oracle>(v)), 3> slope{}; // derivatives of x along each axis of the chart
   for (int i = 0; i < D::dim; ++i) {
     auto ahead = mc::detail::to_array<Oracle>(v), behind = ahead;
     const auto axis = static_cast<std::size_t>(i);
@@ -25,10 +27,10 @@ template <mc::Domain D> mc::Oracle numeric_jacobian(const D& exact, const typena
     using Point = typename D::Point;
     const auto a = mc::detail::to_array<Oracle>(Point(exact.from_unit(mc::detail::to_point<Unit>(ahead))));
     const auto b = mc::detail::to_array<Oracle>(Point(exact.from_unit(mc::detail::to_point<Unit>(behind))));
-    for (std::size_t k = 0; k < 3; ++k) slope[axis][k] = (a[k] - b[k]) / (2 * h);
+    for (std::size_t k = 0; k < slope[axis].size(); ++k) slope[axis][k] = (a[k] - b[k]) / (2 * h);
   }
   const auto dot = [&](std::size_t i, std::size_t j) {
-    return slope[i][0] * slope[j][0] + slope[i][1] * slope[j][1] + slope[i][2] * slope[j][2];
+    return std::inner_product(slope[i].begin(), slope[i].end(), slope[j].begin(), Oracle(0));
   };
   const Oracle a = dot(0, 0), b = dot(0, 1), c = dot(1, 1);
   if constexpr (D::dim == 1) return sqrt(a);

@@ -44,6 +44,7 @@ constexpr auto descriptions = std::to_array<Description>({
     {"Mixture", "Two distributions of directions, one of which is chosen for each sample"},
     {"MixtureN", "A number of cones known at run time, one of which is chosen for each sample"},
     {"UniformBall", "Uniform in the unit ball"},
+    {"UniformRotation", "Uniform rotations as unit quaternions"},
     {"Rotated", "A distribution of directions about another axis"},
     {"BlinnPhong", "Directions with density proportional to cos(theta)^n"},
     {"HenyeyGreenstein", "Scattering angles of a participating medium with mean cosine g"},

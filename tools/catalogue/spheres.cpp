@@ -7,6 +7,7 @@
 #include <mc/warp/mixture.h>
 #include <mc/warp/mixture_n.h>
 #include <mc/warp/rotated.h>
+#include <mc/warp/rotation.h>
 #include <mc/warp/sphere.h>
 
 namespace carlo {
@@ -32,6 +33,7 @@ void add_spheres(Catalogue& c) {
     return mc::MixtureN(mc::Sphere<S>{}, mc::TableDist1D<S>(std::vector<double>{1, 5, 2}), parts);
   });
   add_warp(c, "UniformBall", "", [](auto s) { return mc::UniformBall<decltype(s)>{}; }, {.invert_eps = 8});
+  add_warp(c, "UniformRotation", "", [](auto s) { return mc::UniformRotation<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "Rotated", "cosine about (0.6, -0.8, 0)",
            [](auto s) {
              using S = decltype(s);

@@ -19,18 +19,21 @@ struct ValidateCommandOptions {
   std::string json, junit;             ///< files; empty: none
   std::string plugin;                  ///< a shared object with distributions to check
   std::vector<std::string> parameters; ///< sets or sweeps for the plugin, see parameters.h
+  int random_parameters = 0;           ///< cases with random parameters for each sampler of the plugin
   std::string sampler_command;         ///< a program that answers over pipes, see command.h
-  int uniforms = 0;                    ///< per sample of the program; 0: the dimensions of the domain
-  std::optional<double> timeout;       ///< wall-clock seconds per case of foreign code; none: 60
-  std::optional<double> memory;        ///< GiB for foreign code; none: 4
-  std::string samples_file, pdf_file;  ///< samples, and a density on a grid, see samples_file.h
-  std::string pdf;                     ///< the density as an expression
-  std::string domain;                  ///< of the samples; empty: inferred from their columns
-  std::string breaks;                  ///< places where the density jumps, see parse_breaks
-  bool open_interval = false;          ///< u lies in (0,1): failures at single u are accepted
-  bool dependent = false;              ///< the samples of a file need not be independent
-  bool unnormalized = false;           ///< the given density is only proportional to the true one
-  std::string report;                  ///< folder for index.html; empty: none
+  std::string uniforms;               ///< per sample of the program: a number or "own"; empty: dimensions of the domain
+  std::optional<double> timeout;      ///< wall-clock seconds per case of foreign code; none: 60
+  std::optional<double> memory;       ///< GiB for foreign code; none: 4
+  std::string samples_file, pdf_file; ///< samples, and a density on a grid, see samples_file.h
+  std::string pdf;                    ///< the density as an expression
+  std::string domain;                 ///< of the samples; empty: inferred from their columns
+  std::string breaks;                 ///< places where the density jumps, see parse_breaks
+  bool open_interval = false;         ///< u lies in (0,1): failures at single u are accepted
+  bool dependent = false;             ///< the samples of a file need not be independent
+  bool log_density = false;           ///< densities are given as logarithms
+  std::string thin;                   ///< rows of a Markov chain to keep: "auto" or each K-th
+  bool unnormalized = false;          ///< the given density is only proportional to the true one
+  std::string report;                 ///< folder for index.html; empty: none
   CheckpointFiles checkpoint;
   std::string output; ///< file of a part
   std::string command;

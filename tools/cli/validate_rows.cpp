@@ -4,9 +4,42 @@
 
 namespace carlo {
 
+namespace {
+
+// The options of samples from a file.
+std::vector<Option> samples_rows(ValidateCommandOptions& o) {
+  const Exclusion given{"--samples", "every sample of the file counts"};
+  return {
+      input_file({"--samples-file",
+                  "FILE",
+                  &o.samples_file,
+                  "Check the samples of this file against a density from --pdf or --pdf-file.",
+                  false,
+                  {given}}),
+      {"--pdf", "EXPRESSION", &o.pdf, "Density in the variables of --domain: \"exp(-x*x/2)/sqrt(2*_pi)\"."},
+      input_file({"--pdf-file", "FILE", &o.pdf_file, "Density on a grid: .csv, .exr or .pfm."}),
+      {"--domain", "DOMAIN", &o.domain,
+       "Domain of the samples, or of --command. Default: 0:1 for each of 1 or 2 columns, sphere for 3."},
+      {"--breaks", "AXIS=PLACES,...", &o.breaks,
+       "Places where the density of --pdf or --command jumps, by axis of the domain: \"x=0.25,0.5\", "
+       "\"r=0.5\", \"theta=0:90:15\" in degrees. A density that is constant between them is integrated "
+       "exactly."},
+      {"--log-density", "", &o.log_density,
+       "--pdf is the natural logarithm of the density, and so is the answer of --command to \"pdf\"."},
+      {"--unnormalized", "", &o.unnormalized, "The density is known up to a factor only."},
+      {"--thin", "auto|K", &o.thin,
+       "The rows are states of a Markov chain: keep each K-th, or as many as are nearly independent by the "
+       "autocorrelation time. The output states it."},
+      {"--dependent", "", &o.dependent,
+       "Accept rows that depend on each other, such as a point set. Default: the order of the rows and the "
+       "evenness of the counts are tested, too."},
+  };
+}
+
+} // namespace
+
 std::vector<Option> validate_rows(ValidateCommandOptions& o) {
-  const Exclusion counted{"--samples", "--detect computes the number of samples"},
-      given{"--samples", "every sample of the file counts"};
+  const Exclusion counted{"--samples", "--detect computes the number of samples"};
   std::vector<Option> expert = {
       {"--open-interval", "", &o.open_interval,
        "Accept failures where u is exactly 0, or at another single point of u, and samples on the very edge of the "
@@ -51,36 +84,20 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
            {"--params", "NAME=VALUE,...", &o.parameters,
             "Parameters of the plugin's distributions: \"alpha=0.1,n=3\", a list \"alpha=0.1,0.2\", or a range "
             "\"alpha=0.1:0.5:0.1\" with both ends. Each --params makes one case or more."},
+           {"--random-params", "N", &o.random_parameters,
+            "N cases of each distribution of the plugin, with random values of the parameters that --params leaves "
+            "out: uniform in their ranges, or log-uniform for 0 < lo <= hi/100. Default: 0, the default values."},
            {"--command", "PROGRAM", &o.sampler_command,
             "Check the distribution of this program, which answers over pipes: \"python3 mine.py\". Needs --domain."},
            {"--uniforms", "N", &o.uniforms,
-            "Random numbers that one sample of --command takes; 0 is the dimensions of --domain."},
+            "Random numbers that one sample of --command takes; own: it draws its own from a seed, as a rejection "
+            "sampler does. Default: the dimensions of --domain."},
            {"--timeout", "SECONDS", &o.timeout,
             "Wall-clock time for a case of a plugin or program. Default: 60, and 10 more per million samples of "
             "--detect."},
            {"--memory", "GIB", &o.memory, "Memory for a plugin or program, in GiB. Default: 4."},
        }},
-      {"Your own samples",
-       {
-           input_file({"--samples-file",
-                       "FILE",
-                       &o.samples_file,
-                       "Check the samples of this file against a density from --pdf or --pdf-file.",
-                       false,
-                       {given}}),
-           {"--pdf", "EXPRESSION", &o.pdf, "Density in the variables of --domain: \"exp(-x*x/2)/sqrt(2*_pi)\"."},
-           input_file({"--pdf-file", "FILE", &o.pdf_file, "Density on a grid: .csv, .exr or .pfm."}),
-           {"--domain", "DOMAIN", &o.domain,
-            "Domain of the samples, or of --command. Default: 0:1 for each of 1 or 2 columns, sphere for 3."},
-           {"--breaks", "AXIS=PLACES,...", &o.breaks,
-            "Places where the density of --pdf or --command jumps, by axis of the domain: \"x=0.25,0.5\", "
-            "\"r=0.5\", \"theta=0:90:15\" in degrees. A density that is constant between them is integrated "
-            "exactly."},
-           {"--unnormalized", "", &o.unnormalized, "The density is known up to a factor only."},
-           {"--dependent", "", &o.dependent,
-            "Accept rows that depend on each other, such as a point set. Default: the order of the rows and the "
-            "evenness of the counts are tested, too."},
-       }},
+      {"Your own samples", samples_rows(o)},
       {expert_options, expert},
   });
 }
@@ -112,10 +129,14 @@ std::vector<HelpSection> validate_sections() {
             "One sample a row, numbers separated by commas or blanks. # begins a comment; a first row of names is "
             "skipped."},
            {"--domain",
-            "Parts separated by commas, in the order of the columns, of at most three dimensions: NAME=LO:HI, also "
+            "Parts separated by commas, in the order of the columns, of at most six columns: NAME=LO:HI, also "
             "-inf and inf; disk or annulus=INNER (x, y); triangle (x, y >= 0, x + y <= 1); ball, sphere or hemisphere "
-            "(x, y, z; unit vectors to 1e-5). Or discrete=N: outcomes 0 to N-1 (i), with probabilities from --pdf or "
-            "from the numbers of --pdf-file."},
+            "(x, y, z; unit vectors to 1e-5); rotation (x, y, z, w; unit quaternions, of which q and -q are the same; "
+            "the uniform density is 1/_pi^2). Or discrete=N: outcomes 0 to N-1 (i), with probabilities from --pdf or "
+            "from the numbers of --pdf-file; also discrete=LO:HI with -inf or inf. Or outcome=N before the other "
+            "parts: a first column outcome is 0 to N-1 for a discrete outcome, whose other numbers do not count, and "
+            "-1 for a point. --pdf then is the probability of an outcome or the density of a point: "
+            "\"outcome<0 ? 0.7*2*x : 0.3\" on outcome=1,x=0:1."},
            {"--pdf", "An expression of muParser with _pi and _e, per length, area, volume or solid angle."},
            {"--pdf-file",
             "W numbers in each of H rows, on x=LO:HI, on x=LO:HI,y=LO:HI or on the sphere. Cell (column i, row j) "
@@ -126,7 +147,8 @@ std::vector<HelpSection> validate_sections() {
            {"--command",
             "carlo writes questions to the program's input: \"sample N K\\n\" with N K doubles u, and \"pdf N C\\n\" "
             "with N C doubles x. The program writes N C doubles x, not finite where a sample failed, or N densities, "
-            "little-endian, and flushes."},
+            "little-endian, and flushes. With --uniforms own the first question is \"draw N 1\\n\" with N seeds, "
+            "whole numbers below 2^53."},
        }},
   };
 }

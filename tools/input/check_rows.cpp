@@ -4,6 +4,8 @@
 #include <mc/random/hash.h>
 #include <mc/stats/multiple_testing.h>
 
+#include <algorithm>
+
 namespace carlo {
 
 mc::Report check_rows(const mc::Subject& subject, const OrderedSamples& samples, bool dependent,
@@ -21,11 +23,16 @@ mc::Report check_rows(const mc::Subject& subject, const OrderedSamples& samples,
   for (mc::Check& c : report.checks) c.share *= rest;
   const auto append = [&](std::vector<mc::Check> checks) {
     for (mc::Check& c : checks) {
-      if (c.verdict == mc::Verdict::fail) c.detail += "; --dependent accepts point sets and other dependent samples";
+      if (c.verdict == mc::Verdict::fail)
+        c.detail += "; --thin auto keeps independent rows of a Markov chain, --dependent accepts a point set";
       report.checks.push_back(std::move(c));
     }
   };
   append(test_order(samples.points, samples.axes, samples.dim, mc::hash(options.seed, 7), of_order, options.alpha));
+  // Dependent samples make the other tests fail, too: then the order is the cause.
+  std::stable_partition(report.checks.begin(), report.checks.end(), [](const mc::Check& c) {
+    return c.fault == mc::Fault::dependent && c.verdict == mc::Verdict::fail;
+  });
   if (samples.probabilities.empty()) return report;
   std::vector<double> counts(samples.probabilities.size());
   for (const mc::Subject::Coordinates& v : samples.points) counts[static_cast<std::size_t>(v[0])] += 1;

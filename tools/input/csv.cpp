@@ -181,6 +181,23 @@ void reserve(CsvTable& table, std::size_t rows, const std::string& file) {
 
 } // namespace
 
+void CsvTable::keep_every(std::size_t step) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rows(); i += step, ++kept) {
+    lines[kept] = lines[i];
+    for (std::size_t k = 0; k < columns; ++k) {
+      const std::size_t to = kept * columns + k, from = i * columns + k;
+      values[to] = values[from];
+      digits[to] = digits[from];
+      digits_below[to] = digits_below[from];
+    }
+  }
+  lines.resize(kept);
+  values.resize(kept * columns);
+  digits.resize(kept * columns);
+  digits_below.resize(kept * columns);
+}
+
 CsvTable read_csv(const std::string& file) {
   const std::string bytes = mc::read_file(file);
   require_text(file, bytes);

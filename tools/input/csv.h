@@ -19,6 +19,8 @@ struct CsvTable {
   std::vector<std::uint32_t> lines; ///< for each row: its line in the file, from 1
 
   std::size_t rows() const { return lines.size(); }
+  /// Keeps the rows 0, step, 2 step, ...
+  void keep_every(std::size_t step);
   const double* row(std::size_t i) const { return values.data() + i * columns; }
 };
 

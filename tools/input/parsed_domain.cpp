@@ -11,6 +11,7 @@
 #include <mc/domain/interval.h>
 #include <mc/domain/sphere.h>
 #include <mc/domain/triangle.h>
+#include <mc/domain/unit_quaternions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,7 @@
 namespace carlo {
 
 using mc::AnyDomain, mc::PointArray;
+constexpr double infinity = HUGE_VAL;
 
 namespace {
 
@@ -101,6 +103,18 @@ Part annulus(std::string_view radius, Rounding rounding) {
               });
 }
 
+Part rotations(Rounding rounding) {
+  Part p = part("unit quaternions", {"x", "y", "z", "w"}, mc::UnitQuaternions<double>(), rounding,
+                [](const PointArray& q) { return std::abs(norm(q, 4) - 1) <= unit_tolerance; });
+  if (rounding != Rounding::printed) return p;
+  p.text += fmt::format(" (to {:g})", unit_tolerance);
+  p.chart.to_unit = [to_unit = p.chart.to_unit](const PointArray& q) {
+    const double length = norm(q, 4);
+    return to_unit({q[0] / length, q[1] / length, q[2] / length, q[3] / length});
+  };
+  return p;
+}
+
 Part named(const std::string& name, Rounding rounding) {
   const auto is_unit = [](const PointArray& x) { return std::abs(norm(x, 3) - 1) <= unit_tolerance; };
   if (name == "sphere") return directions("the unit sphere", mc::Sphere<double>(), rounding, is_unit);
@@ -122,18 +136,31 @@ Part named(const std::string& name, Rounding rounding) {
     p.chart.axes[1].name = "y / (1 - x)";
     return p;
   }
-  static const std::vector<std::string> known = {"sphere", "hemisphere", "disk",    "annulus",
-                                                 "ball",   "triangle",   "discrete"};
+  if (name == "rotation") return rotations(rounding);
+  static const std::vector<std::string> known = {"sphere", "hemisphere", "disk",     "annulus",
+                                                 "ball",   "triangle",   "rotation", "discrete"};
   throw mc::Error(fmt::format("'{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\", nor one of {}{}", name,
                               fmt::join(known, ", "), mc::did_you_mean(name, known)));
 }
 
-Part discrete(int outcomes) {
-  Part p{{}, {"i"}, fmt::format("outcomes 0 to {}", outcomes - 1), outcomes};
+constexpr double most_outcomes = 1 << 24, most_bounded = 1 << 20;
+
+double whole_number(std::string_view word, std::string_view whole) {
+  const double n = number(word, whole);
+  mc::require(n == std::floor(n), "'{}': {} is no whole number", whole, n);
+  return n;
+}
+
+Part discrete(std::string_view value, std::string_view whole) {
+  const std::size_t colon = value.find(':');
+  const bool is_range = colon != std::string_view::npos;
+  const double lo = is_range ? whole_number(value.substr(0, colon), whole) : 0,
+               hi = is_range ? whole_number(value.substr(colon + 1), whole) : whole_number(value, whole) - 1;
+  const bool any = lo <= hi && lo < infinity && hi > -infinity;
+  mc::require(any && (!std::isfinite(hi - lo) || hi - lo < most_outcomes),
+              "'{}'; 1 to 2^24 outcomes are possible, or LO:HI with an infinite end", whole);
+  Part p{{}, {"i"}, fmt::format("outcomes {} to {}", lo, hi), {lo, hi}};
   p.chart.point_size = 1;
-  p.chart.contains = [outcomes](const PointArray& x) {
-    return x[0] >= 0 && x[0] < outcomes && x[0] == std::floor(x[0]);
-  };
   return p;
 }
 
@@ -151,9 +178,9 @@ void put(std::array<double, N>& x, std::size_t first, int count, const std::arra
 Part product(const Part& a, const Part& b) {
   Part p{{}, a.columns, a.text + ", " + b.text};
   p.columns.insert(p.columns.end(), b.columns.begin(), b.columns.end());
-  mc::require(p.columns.size() <= std::tuple_size_v<PointArray> && a.chart.dim + b.chart.dim <= 3,
-              "{} has {} dimensions in {} columns; at most 3 in {} can be checked", p.text, a.chart.dim + b.chart.dim,
-              p.columns.size(), std::tuple_size_v<PointArray>);
+  mc::require(p.columns.size() <= std::tuple_size_v<PointArray>,
+              "{} has {} dimensions in {} columns; at most {} columns can be checked", p.text,
+              a.chart.dim + b.chart.dim, p.columns.size(), std::tuple_size_v<PointArray>);
   p.chart.dim = a.chart.dim + b.chart.dim;
   p.chart.point_size = a.chart.point_size + b.chart.point_size;
   p.chart.axes = a.chart.axes;
@@ -182,10 +209,44 @@ Part product(const Part& a, const Part& b) {
 
 } // namespace
 
-bool ParsedDomain::contains(const double* x) const {
-  PointArray numbers{};
-  std::copy_n(x, columns.size(), numbers.begin());
-  return chart.contains(numbers);
+int Outcomes::index(double k) const {
+  if (!(k == std::floor(k) && std::isfinite(k))) return -1;
+  if (k >= lo && k <= hi) return static_cast<int>(k - lo);
+  return has_rest ? static_cast<int>(hi - lo) + 1 : -1;
+}
+
+void Outcomes::bound_by(double least, double largest) {
+  has_rest = !std::isfinite(hi - lo);
+  if (!has_rest) return;
+  if (!std::isfinite(lo)) lo = std::isfinite(hi) ? std::max(least, hi - most_bounded + 1) : least;
+  hi = std::min({hi, largest, lo + most_bounded - 1});
+}
+
+int ParsedDomain::outcome_of(const double* row) const {
+  return !outcomes.any() || (is_mixed() && row[0] < 0) ? -1 : outcomes.index(row[0]);
+}
+
+PointArray ParsedDomain::point_of(const double* row) const {
+  PointArray x{};
+  std::copy_n(row + (is_mixed() ? 1 : 0), chart.point_size, x.begin());
+  return x;
+}
+
+std::vector<double> ParsedDomain::row_of(const PointArray& x) const {
+  std::vector<double> row(x.begin(), x.begin() + chart.point_size);
+  if (is_mixed()) row.insert(row.begin(), -1);
+  return row;
+}
+
+std::vector<double> ParsedDomain::row_of(int outcome) const {
+  std::vector<double> row(columns.size());
+  row[0] = outcomes.lo + outcome;
+  return row;
+}
+
+bool ParsedDomain::contains(const double* row) const {
+  if (!outcomes.any() || (is_mixed() && row[0] < 0)) return chart.contains(point_of(row));
+  return outcomes.index(row[0]) >= 0;
 }
 
 std::array<double, 3> unknown_quartiles(std::size_t) { return {-1, 0, 1}; }
@@ -241,24 +302,33 @@ Breaks parse_breaks(const std::string& text, const AnyDomain& domain) {
 }
 
 ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles, Rounding rounding) {
-  std::optional<ParsedDomain> whole;
+  std::optional<ParsedDomain> whole, beside; // the points, and outcomes beside them
   for (const std::string_view part : mc::split(text, ',')) {
     const std::string one(part);
     const std::size_t equals = std::min(one.find('='), one.size());
     const std::string name(mc::trimmed(std::string_view(one).substr(0, equals)));
     const std::string_view value = std::string_view(one).substr(std::min(equals + 1, one.size()));
     if (name == "discrete") {
-      const double n = number(value, one);
-      mc::require(n >= 1 && n <= 1 << 24 && n == std::floor(n), "'{}'; 1 to 2^24 outcomes are possible", one);
       mc::require(text.find(',') == std::string::npos, "'{}' stands alone", one);
-      return discrete(static_cast<int>(n));
+      return discrete(value, one);
     }
-    const std::size_t column = whole ? whole->columns.size() : 0;
+    if (name == "outcome" && value.find(':') == std::string_view::npos) {
+      mc::require(!whole && !beside, "'{}' stands first", one);
+      beside = discrete(value, one);
+      continue;
+    }
+    const std::size_t column = (whole ? whole->columns.size() : 0) + (beside ? 1 : 0);
     Part next;
     if (name == "annulus") next = annulus(value, rounding);
     else if (one.find('=') != std::string::npos) next = interval(name, value, one, quartiles, column, rounding);
     else next = named(one, rounding);
     whole = whole ? product(*whole, next) : std::move(next);
+  }
+  mc::require(whole.has_value(), "'{}' has no points; discrete=N has outcomes alone", text);
+  if (beside) {
+    whole->outcomes = beside->outcomes;
+    whole->text = beside->text + " and " + whole->text;
+    whole->columns.insert(whole->columns.begin(), "outcome");
   }
   std::vector<std::string> names = whole->columns;
   std::sort(names.begin(), names.end());

@@ -17,14 +17,40 @@ enum class Rounding {
   floats   ///< as in libmc's domains over float
 };
 
-/// A domain with the names of its columns.
-struct ParsedDomain {
-  mc::AnyDomain chart;              ///< dimension 0 for discrete outcomes
-  std::vector<std::string> columns; ///< one for each number of a point
-  std::string text;                 ///< "x in [0, 1], the unit sphere"
-  int outcomes = 0;                 ///< 0 for a continuous domain
+/// The discrete outcomes of a domain: whole numbers.
+struct Outcomes {
+  double lo = 0, hi = -1; ///< the first and the last; infinite until they are bounded by samples
+  bool has_rest = false;  ///< all whole numbers beyond lo and hi are one more outcome
+  /// Whether there are outcomes.
+  bool any() const { return hi >= lo; }
+  /// The number of outcomes, which are bounded.
+  int count() const { return static_cast<int>(hi - lo) + 1 + int(has_rest); }
+  /// The index of a whole number; -1 for one that is no outcome.
+  int index(double k) const;
+  /// Replaces infinite ends by the extremes of samples, at most 2^20 outcomes from the first; the rest is one more.
+  void bound_by(double least, double largest);
+};
 
-  bool contains(const double* x) const;
+/// A domain with the names of its columns. The first column of a row of a domain with points and outcomes is the
+/// number of an outcome, which has no point, or negative for a point.
+struct ParsedDomain {
+  mc::AnyDomain chart;              ///< domain of the points; dimension 0 for outcomes alone
+  std::vector<std::string> columns; ///< names of the numbers of a row
+  std::string text;                 ///< "x in [0, 1], the unit sphere"
+  Outcomes outcomes = {};           ///< none for a continuous domain
+
+  /// Whether rows have points and outcomes.
+  bool is_mixed() const { return chart.dim > 0 && outcomes.any(); }
+  /// The outcome of a row; -1 for a point, or for a number that is no outcome.
+  int outcome_of(const double* row) const;
+  /// The point of a row.
+  mc::PointArray point_of(const double* row) const;
+  /// The row of a point.
+  std::vector<double> row_of(const mc::PointArray& x) const;
+  /// The row of an outcome.
+  std::vector<double> row_of(int outcome) const;
+  /// Whether the row is a point of the domain or an outcome.
+  bool contains(const double* row) const;
 };
 
 /// Returns the quartiles of a column of the samples. The charts of infinite intervals are centred on them.
@@ -36,7 +62,7 @@ std::array<double, 3> quartiles_of(std::vector<double> column);
 
 /// Converts the places where a density jumps, in units of each axis, to chart coordinates.
 ///   throws : Error for places outside of an axis.
-using Breaks = std::array<std::vector<double>, 3>;
+using Breaks = mc::PerAxis<std::vector<double>>;
 Breaks chart_breaks(const mc::AnyDomain& domain, const Breaks& places);
 
 /// Parses places by the names of the axes, "x=0.25,0.5,theta=0:90:15", with lists and ranges as in parameters.h. Axes
@@ -50,9 +76,13 @@ Breaks parse_breaks(const std::string& text, const mc::AnyDomain& domain);
 ///   disk, annulus=R   : x^2 + y^2 <= 1, and additionally >= R^2; columns x, y.
 ///   triangle          : x >= 0, y >= 0, x + y <= 1; columns x, y.
 ///   ball              : x^2 + y^2 + z^2 <= 1; columns x, y, z.
+///   rotation          : unit quaternions, q and -q the same; columns x, y, z, w (scalar part).
 ///   sphere, hemisphere: unit vectors, and additionally z >= 0; columns x, y, z.
 ///   discrete=N        : outcomes 0 to N - 1 in a column i; not combined with other parts.
-///   throws : Error for anything else, more than three dimensions or four columns, or a repeated name.
+///   discrete=LO:HI    : outcomes LO to HI, whole numbers; either end may be -inf or inf.
+///   outcome=N         : outcomes 0 to N - 1 in a first column `outcome`, which is negative for a point of the other
+///                       parts.
+///   throws : Error for anything else, more than six dimensions or columns, or a repeated name.
 ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles = unknown_quartiles,
                           Rounding rounding = Rounding::printed);
 

@@ -18,12 +18,15 @@ struct SamplesFileOptions {
   std::string breaks;        ///< for an expression, see parse_breaks; may be empty
   bool unnormalized = false; ///< the input is only proportional to the density
   bool dependent = false;    ///< the rows need not be independent; else their order and evenness are tested
+  bool is_log = false;       ///< the expression is the logarithm of the density
+  std::string thin;          ///< keep each K-th row: "auto" or K; empty: all
 };
 
 /// A case and the largest number of samples that its checks can use.
 struct SamplesFileCase {
   Case one;
   std::uint64_t samples = 0;
+  std::string note = {}; ///< a sentence for the user before the check; may be empty
 };
 
 /// The file's samples as one case.

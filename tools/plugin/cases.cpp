@@ -7,11 +7,14 @@
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
+#include <mc/random/pcg.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -90,6 +93,21 @@ std::optional<std::vector<double>> values_of(const std::string& path, const Desc
   return values;
 }
 
+// The set with random values for the other parameters of the sampler, rounded to six digits.
+ParameterSet completed(const std::string& path, const Description& d, ParameterSet set, mc::Pcg& random) {
+  for (const Parameter& p : d.parameters) {
+    if (std::ranges::any_of(set, [&](const auto& given) { return given.first == p.name; })) continue;
+    mc::require(std::isfinite(p.hi - p.lo), "{}: --random-params: {} of {} has no finite range; set it with --params",
+                path, p.name, d.name);
+    const double u = random.uniform<double>();
+    const bool is_log = p.lo > 0 && p.hi >= 100 * p.lo;
+    const double value = is_log ? p.lo * std::pow(p.hi / p.lo, u) : p.lo + (p.hi - p.lo) * u;
+    const double rounded = std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+    set.emplace_back(p.name, std::clamp(rounded, p.lo, p.hi));
+  }
+  return set;
+}
+
 Case make_case(const std::string& path, std::size_t index, const Description& d, const ParameterSet& set,
                const std::vector<double>& values, const WorkerOptions& worker) {
   Case c;
@@ -119,7 +137,8 @@ json run_plugin_task(const json& request, CallMonitor& monitor) {
 }
 
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts,
-                       const std::vector<std::string>& names, const WorkerOptions& worker) {
+                       const std::vector<std::string>& names, const WorkerOptions& worker,
+                       const RandomParameters& random) {
   std::error_code error;
   mc::require(std::filesystem::exists(path, error), "cannot read '{}': no such file", path);
   const std::vector<Description> samplers = call_worker({{"task", "describe"}, {"who", path}}, worker);
@@ -132,12 +151,21 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
     const std::size_t before = cases.size();
     const auto is_it = [&](const std::string& name) { return name == d.name || name.starts_with(d.name + "("); };
     const bool named = names.empty() || std::any_of(names.begin(), names.end(), is_it);
+    mc::Pcg numbers(random.seed, index);
+    const auto add = [&](const ParameterSet& set) {
+      const int count = random.cases > 0 && set.size() < d.parameters.size() ? random.cases : 0;
+      for (int i = 0; i < std::max(count, 1); ++i) {
+        const ParameterSet own = count > 0 ? completed(path, d, set, numbers) : set;
+        if (const auto values = values_of(path, d, own, named))
+          cases.push_back(make_case(path, index, d, own, *values, worker));
+      }
+    };
     for (const Asked& set : asked)
-      if (const auto values = values_of(path, d, set.values, named)) {
-        cases.push_back(make_case(path, index, d, set.values, *values, worker));
+      if (values_of(path, d, set.values, named)) {
+        add(set.values);
         used.insert(set.text);
       }
-    if (cases.size() == before) cases.push_back(make_case(path, index, d, {}, *values_of(path, d, {}, named), worker));
+    if (cases.size() == before) add({});
   }
   for (const Asked& set : asked)
     mc::require(used.contains(set.text), "{}: no distribution has all the parameters of --params '{}'", path, set.text);

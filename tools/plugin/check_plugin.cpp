@@ -26,7 +26,8 @@ std::vector<PointArray> pilot(const PluginDistribution& plugin, std::uint64_t se
     for (int k = 0; k < plugin.uniforms(); ++k) u[static_cast<std::size_t>(k)] = random.uniform<double>();
     PointArray x{};
     x.fill(std::numeric_limits<double>::quiet_NaN());
-    if (plugin.sample(u.data(), x.data()) == MC_POINT) drawn.push_back(x);
+    if ((plugin->sample ? plugin.sample(u.data(), x.data()) : plugin.sample(random, x.data())) == MC_POINT)
+      drawn.push_back(x);
   }
   return drawn;
 }
@@ -49,13 +50,13 @@ void set_weight(const PluginDistribution& plugin, const AnyDistribution::Uniform
   d.stated.expected = f / d.pdf;
 }
 
-// The point that the plugin returns for u. Coordinates that it does not write stay NaN.
-std::optional<AnyDistribution::Sample> draw(const PluginDistribution& plugin, const mc::AnyDomain& domain,
-                                            const AnyDistribution::Uniforms& u) {
+// The sample that draw(x) returns, rounded to the plugin's scalar. Coordinates that the plugin does not write stay NaN.
+template <class Draw>
+std::optional<AnyDistribution::Sample> drawn_by(const PluginDistribution& plugin, const Draw& draw) {
   AnyDistribution::Sample d;
   const auto n = static_cast<std::size_t>(plugin.coordinates());
   std::fill_n(d.x.begin(), n, std::numeric_limits<double>::quiet_NaN());
-  const int drawn = plugin.sample(u.data(), d.x.data());
+  const int drawn = draw(d.x.data());
   if (drawn == MC_FAILED) return {};
   if (drawn >= MC_OUTCOME) {
     d.x = {};
@@ -63,19 +64,31 @@ std::optional<AnyDistribution::Sample> draw(const PluginDistribution& plugin, co
     return d;
   }
   for (std::size_t i = 0; i < n; ++i) d.x[i] = rounded(plugin, d.x[i]);
-  if (plugin->domain == MC_DISCRETE) {
-    if (d.x[0] >= 0 && d.x[0] < plugin->hi[0] && d.x[0] == std::floor(d.x[0])) d.atom = static_cast<int>(d.x[0]);
-    return d;
-  }
-  const bool finite = std::all_of(d.x.begin(), d.x.end(), [](double x) { return std::isfinite(x); });
-  if (!plugin->weight || !finite || !domain.contains(d.x)) return d;
-  d.pdf = plugin.pdf(d.x.data());
-  set_weight(plugin, u, d);
+  if (plugin->domain == MC_DISCRETE && d.x[0] >= 0 && d.x[0] < plugin->hi[0] && d.x[0] == std::floor(d.x[0]))
+    d.atom = static_cast<int>(d.x[0]);
+  return d;
+}
+
+// The sample for u, with its weight if it states one.
+std::optional<AnyDistribution::Sample> draw(const PluginDistribution& plugin, const mc::AnyDomain& domain,
+                                            const AnyDistribution::Uniforms& u) {
+  auto d = drawn_by(plugin, [&](double* x) { return plugin.sample(u.data(), x); });
+  if (!d || !plugin->weight || d->atom >= 0 || plugin->domain == MC_DISCRETE) return d;
+  const bool finite = std::all_of(d->x.begin(), d->x.end(), [](double x) { return std::isfinite(x); });
+  if (!finite || !domain.contains(d->x)) return d;
+  d->pdf = plugin.pdf(d->x.data());
+  set_weight(plugin, u, *d);
   return d;
 }
 
 double time_of(const PluginDistribution& plugin, const AnyDistribution& s) {
   mc::Pcg random(3);
+  if (!plugin->sample)
+    return mc::ns_per_sample(std::vector<int>(mc::timing_inputs / 2), [&](int) {
+      PointArray x{};
+      plugin.sample(random, x.data());
+      return x[0];
+    });
   std::vector<AnyDistribution::Uniforms> u(mc::timing_inputs / 2);
   for (AnyDistribution::Uniforms& one : u) one = random_uniforms(s, random);
   return mc::ns_per_sample(u, [&](const AnyDistribution::Uniforms& one) {
@@ -102,17 +115,19 @@ mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const 
   Breaks places;
   for (int axis = 0; axis < domain.chart.dim; ++axis) places[static_cast<std::size_t>(axis)] = plugin.breaks(axis);
   s.breaks = chart_breaks(domain.chart, places);
-  for (int i = 0; i < domain.outcomes; ++i) {
-    const double outcome = i;
-    s.atoms.push_back(plugin.pdf(&outcome));
-  }
+  for (int i = 0; i < domain.outcomes.count(); ++i) s.atoms.push_back(plugin.pdf(domain.row_of(i).data()));
   for (int k = 0; k < plugin->outcomes; ++k) s.atoms.push_back(plugin.probability(k));
-  s.uniforms = plugin.uniforms();
+  s.uniforms = plugin->sample ? plugin.uniforms() : 0;
   s.states_weight = plugin->weight != nullptr;
   s.may_fail = plugin->may_fail != 0;
   if (plugin->pdf_tolerance > 0) s.mass_tolerance = plugin->pdf_tolerance;
   if (plugin->weight_tolerance > 0) s.weight_tolerance = plugin->weight_tolerance;
-  s.sample = [plugin, domain = s.domain](const AnyDistribution::Uniforms& u) { return draw(plugin, domain, u); };
+  if (plugin->sample)
+    s.sample = [plugin, domain = s.domain](const AnyDistribution::Uniforms& u) { return draw(plugin, domain, u); };
+  else
+    s.sample_stream = [plugin](mc::Pcg& random) {
+      return drawn_by(plugin, [&](double* x) { return plugin.sample(random, x); });
+    };
   const auto exactly = [plugin](PointArray x) {
     for (double& one : x) one = rounded(plugin, one);
     return x;

@@ -14,7 +14,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,54 +30,56 @@ namespace {
 
 using Rows = std::vector<double>;
 
-// A program that samples a distribution.
+// A program that samples a distribution on a domain, in batches.
 class SamplingProgram {
  public:
-  SamplingProgram(const std::string& command, std::size_t uniforms, std::size_t columns, CallMonitor& monitor)
-      : program_(command, monitor), uniforms_(uniforms), columns_(columns) {}
+  using Samples = std::vector<std::optional<AnyDistribution::Sample>>;
+
+  //   uniforms : numbers for one sample; 0: it takes a seed.
+  SamplingProgram(const CommandDistribution& d, std::size_t uniforms, CallMonitor& monitor)
+      : program_(d.command, monitor), uniforms_(uniforms), is_log_(d.is_log), domain_(parse_domain(d.domain)) {}
 
   std::size_t uniforms() const { return uniforms_; }
-  std::size_t columns() const { return columns_; }
+  const ParsedDomain& domain() const { return domain_; }
+  void set_domain(ParsedDomain domain) { domain_ = std::move(domain); }
 
-  Rows sample(const Rows& u) { return ask("sample", "u", u, uniforms_, columns_); }
-  Rows pdf(const Rows& x) { return ask("pdf", "x", x, columns_, 1); }
-
- private:
-  Rows ask(const char* what, const char* argument, const Rows& in, std::size_t width, std::size_t answer_width) {
-    Rows out(in.size() / width * answer_width);
-    program_.ask(what, argument, in, width, out);
-    return out;
+  // Rows of samples for rows of uniform numbers or for seeds.
+  Rows rows(const Rows& u) {
+    return uniforms_ > 0 ? ask("sample", "u", u, uniforms_, domain_.columns.size())
+                         : ask("draw", "seed", u, 1, domain_.columns.size());
+  }
+  Rows densities(const Rows& x) {
+    Rows all = ask("pdf", "x", x, domain_.columns.size(), 1);
+    if (is_log_)
+      for (double& one : all) one = std::exp(one);
+    return all;
+  }
+  std::vector<double> pdf(std::span<const mc::PointArray> x) {
+    Rows rows;
+    for (const mc::PointArray& one : x) append(domain_.row_of(one), rows);
+    return densities(rows);
   }
 
-  Program program_;
-  std::size_t uniforms_, columns_;
-};
-
-// The first `width` numbers of each array as one row.
-template <class Arrays> Rows rows_of(const Arrays& arrays, std::size_t width) {
-  Rows rows;
-  rows.reserve(arrays.size() * width);
-  for (const auto& a : arrays) rows.insert(rows.end(), a.begin(), a.begin() + static_cast<std::ptrdiff_t>(width));
-  return rows;
-}
-
-// The program's sampler on a domain; it draws samples in batches.
-class CommandOnDomain {
- public:
-  CommandOnDomain(const std::shared_ptr<SamplingProgram>& program, const ParsedDomain& domain)
-      : program_(program), domain_(domain) {}
-
-  std::vector<std::optional<AnyDistribution::Sample>> sample(std::span<const AnyDistribution::Uniforms> u) const {
-    const Rows x = program_->sample(rows_of(u, program_->uniforms()));
-    std::vector<std::optional<AnyDistribution::Sample>> drawn(u.size(), AnyDistribution::Sample{});
+  // Samples with their densities.
+  Samples sample(const Rows& u) {
+    const std::size_t columns = domain_.columns.size();
+    const Rows x = rows(u);
+    Samples drawn(x.size() / columns, AnyDistribution::Sample{});
     std::vector<mc::PointArray> points;
     std::vector<std::size_t> owners;
-    for (std::size_t i = 0; i < u.size(); ++i) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const double* row = &x[i * columns];
       AnyDistribution::Sample& d = *drawn[i];
-      std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(i * program_->columns()), program_->columns(), d.x.begin());
-      const bool inside = domain_.chart.contains(d.x);
-      if (domain_.outcomes > 0 && inside) d.atom = static_cast<int>(d.x[0]);
-      if (domain_.outcomes > 0 || !inside) continue;
+      if (domain_.outcomes.any() && !(domain_.is_mixed() && row[0] < 0)) {
+        d.atom = domain_.outcomes.index(row[0]);
+        if (d.atom < 0) d.x[0] = row[0];
+        mc::require(d.atom >= 0 || !std::isfinite(row[0]) || !domain_.is_mixed(),
+                    "it returned outcome {}; the domain has {}", row[0], domain_.text);
+        if (d.atom < 0 && domain_.is_mixed()) d.x.fill(std::numeric_limits<double>::quiet_NaN());
+        continue;
+      }
+      d.x = domain_.point_of(row);
+      if (!domain_.chart.contains(d.x)) continue;
       points.push_back(d.x);
       owners.push_back(i);
     }
@@ -82,67 +87,127 @@ class CommandOnDomain {
     for (std::size_t k = 0; k < owners.size(); ++k) drawn[owners[k]]->pdf = density[k];
     return drawn;
   }
-  std::vector<double> pdf(std::span<const mc::PointArray> x) const {
-    return program_->pdf(rows_of(x, program_->columns()));
-  }
 
  private:
-  std::shared_ptr<SamplingProgram> program_;
+  static void append(const Rows& row, Rows& rows) { rows.insert(rows.end(), row.begin(), row.end()); }
+  Rows ask(const char* what, const char* argument, const Rows& in, std::size_t width, std::size_t answer_width) {
+    Rows out(in.size() / width * answer_width);
+    program_.ask(what, argument, in, width, out);
+    return out;
+  }
+
+  Program program_;
+  std::size_t uniforms_;
+  bool is_log_;
   ParsedDomain domain_;
 };
 
-double time_of(const CommandOnDomain& command, const AnyDistribution& s) {
-  mc::Pcg random(3);
-  std::vector<AnyDistribution::Uniforms> u(mc::timing_inputs);
-  for (AnyDistribution::Uniforms& one : u) one = random_uniforms(s, random);
-  const auto start = std::chrono::steady_clock::now();
-  command.sample(u);
-  return 1e9 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
-         static_cast<double>(u.size());
+Rows rows_of(std::span<const AnyDistribution::Uniforms> u, std::size_t width) {
+  Rows rows;
+  rows.reserve(u.size() * width);
+  for (const AnyDistribution::Uniforms& one : u)
+    rows.insert(rows.end(), one.begin(), one.begin() + static_cast<std::ptrdiff_t>(width));
+  return rows;
 }
 
-AnyDistribution plugin_distribution(const std::shared_ptr<SamplingProgram>& program, const ParsedDomain& domain) {
-  const CommandOnDomain command(program, domain);
+Rows seeds(mc::Pcg& random, std::size_t n) {
+  Rows all(n);
+  for (double& one : all) one = static_cast<double>(random.next64() >> 11);
+  return all;
+}
+
+// The input of n samples: uniform numbers or seeds.
+Rows input_of(const SamplingProgram& program, std::uint64_t seed, std::size_t n) {
+  mc::Pcg random(seed);
+  if (program.uniforms() == 0) return seeds(random, n);
+  Rows u(n * program.uniforms());
+  for (double& one : u) one = random.uniform<double>();
+  return u;
+}
+
+double time_of(SamplingProgram& program) {
+  const Rows u = input_of(program, 3, mc::timing_inputs);
+  const auto start = std::chrono::steady_clock::now();
+  program.sample(u);
+  return 1e9 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / mc::timing_inputs;
+}
+
+// The probabilities of the outcomes; the rest of infinitely many is the rest of 1.
+std::vector<double> probabilities(SamplingProgram& program) {
+  const Outcomes& outcomes = program.domain().outcomes;
+  if (!outcomes.any()) return {};
+  Rows rows;
+  for (int i = 0; i < outcomes.count() - int(outcomes.has_rest); ++i) {
+    const std::vector<double> row = program.domain().row_of(i);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  std::vector<double> p = program.densities(rows);
+  if (outcomes.has_rest) p.push_back(std::max(1 - std::accumulate(p.begin(), p.end(), 0.0), 0.0));
+  return p;
+}
+
+AnyDistribution distribution_of(const std::shared_ptr<SamplingProgram>& program) {
   AnyDistribution s;
-  s.domain = domain.chart;
+  s.domain = program->domain().chart;
   s.uniforms = static_cast<int>(program->uniforms());
-  s.sample = [command](const AnyDistribution::Uniforms& u) { return command.sample(std::span(&u, 1))[0]; };
-  s.sample_many = [command](std::span<const AnyDistribution::Uniforms> u) { return command.sample(u); };
-  s.pdf = [command](const mc::PointArray& x) { return command.pdf(std::span(&x, 1))[0]; };
-  s.pdf_many = [command](std::span<const mc::PointArray> x) { return command.pdf(x); };
-  s.ns_per_sample = [command, s] { return time_of(command, s); };
-  std::vector<mc::PointArray> outcomes(static_cast<std::size_t>(domain.outcomes));
-  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i][0] = static_cast<double>(i);
-  if (!outcomes.empty()) s.atoms = command.pdf(outcomes);
+  if (s.uniforms > 0) {
+    s.sample_many = [program](std::span<const AnyDistribution::Uniforms> u) {
+      return program->sample(rows_of(u, program->uniforms()));
+    };
+    s.sample = [many = s.sample_many](const AnyDistribution::Uniforms& u) { return many(std::span(&u, 1))[0]; };
+  } else {
+    s.sample_stream = [program](mc::Pcg& random) { return program->sample(seeds(random, 1))[0]; };
+    s.sample_stream_many = [program](std::uint64_t seed, std::size_t n) {
+      mc::Pcg random(seed);
+      return program->sample(seeds(random, n));
+    };
+  }
+  s.pdf_many = [program](std::span<const mc::PointArray> x) { return program->pdf(x); };
+  s.pdf = [program](const mc::PointArray& x) { return program->pdf(std::span(&x, 1))[0]; };
+  s.ns_per_sample = [program] { return time_of(*program); };
+  s.atoms = probabilities(*program);
   return s;
 }
 
-// The domain, with charts of infinite intervals centred on pilot samples.
-ParsedDomain charted(SamplingProgram& program, const std::string& text, std::uint64_t seed) {
-  mc::Pcg random(mc::hash(seed, 42));
-  Rows u(1000 * program.uniforms());
-  for (double& one : u) one = random.uniform<double>();
-  const auto quartiles = [&](std::size_t column) {
-    const Rows x = program.sample(u);
-    std::vector<double> numbers;
-    for (std::size_t i = column; i < x.size(); i += program.columns()) numbers.push_back(x[i]);
-    return quartiles_of(std::move(numbers));
+// Charts of infinite intervals are centred on pilot samples, and infinitely many outcomes end at their extremes.
+void adapt_domain(SamplingProgram& program, const std::string& text, std::uint64_t seed) {
+  constexpr std::size_t of_points = 1000, of_outcomes = 1 << 16;
+  const Outcomes given = program.domain().outcomes;
+  const std::size_t columns = program.domain().columns.size();
+  std::optional<Rows> pilot;
+  const auto numbers = [&](std::size_t column) {
+    if (!pilot) pilot = program.rows(input_of(program, mc::hash(seed, 42), given.any() ? of_outcomes : of_points));
+    std::vector<double> all;
+    for (std::size_t i = 0; i < pilot->size(); i += columns)
+      if (!program.domain().is_mixed() || column == 0 || (*pilot)[i] < 0) all.push_back((*pilot)[i + column]);
+    return all;
   };
-  return parse_domain(text, quartiles, Rounding::doubles);
+  ParsedDomain domain = parse_domain(
+      text, [&](std::size_t column) { return quartiles_of(numbers(column)); }, Rounding::doubles);
+  if (given.any() && !std::isfinite(given.hi - given.lo)) {
+    std::vector<double> k = numbers(0);
+    std::erase_if(k, [&](double one) { return !(one >= given.lo && one <= given.hi); });
+    mc::require(!k.empty(), "none of {} samples is in {}", of_outcomes, domain.text);
+    const auto [least, largest] = std::minmax_element(k.begin(), k.end());
+    domain.outcomes.bound_by(*least, *largest);
+  }
+  program.set_domain(std::move(domain));
+}
+
+CommandDistribution requested(const json& request) {
+  return {request["who"], request["domain"], request["breaks"], request["uniforms"], request["is_log"]};
 }
 
 } // namespace
 
 json run_command_task(const json& request, CallMonitor& monitor) {
-  const std::string text = request["domain"];
-  const auto program =
-      std::make_shared<SamplingProgram>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
-                                        parse_domain(text).columns.size(), monitor);
+  const CommandDistribution d = requested(request);
+  const auto program = std::make_shared<SamplingProgram>(d, static_cast<std::size_t>(std::max(d.uniforms, 0)), monitor);
   CaseOptions o = requested_options(request);
   o.max_evaluations = 1'000'000; // each evaluation is an exchange with the program
-  const ParsedDomain domain = charted(*program, text, o.seed);
-  AnyDistribution distribution = plugin_distribution(program, domain);
-  distribution.breaks = parse_breaks(request["breaks"], domain.chart);
+  adapt_domain(*program, d.domain, o.seed);
+  AnyDistribution distribution = distribution_of(program);
+  distribution.breaks = parse_breaks(d.breaks, program->domain().chart);
   distribution.name = request["title"];
   return to_json(check_laws(distribution, {.statistics = o}));
 }
@@ -150,7 +215,8 @@ json run_command_task(const json& request, CallMonitor& monitor) {
 Case command_case(const CommandDistribution& distribution, const WorkerOptions& worker) {
   const ParsedDomain domain = mc::with_context("--domain", [&] { return parse_domain(distribution.domain); });
   parse_breaks(distribution.breaks, domain.chart);
-  const int uniforms = distribution.uniforms > 0 ? distribution.uniforms : std::max(domain.chart.dim, 1);
+  const int uniforms =
+      distribution.uniforms != 0 ? distribution.uniforms : std::max(domain.chart.dim + int(domain.is_mixed()), 1);
   mc::require(uniforms <= CallMonitor::max_arguments, "validate: --uniforms {}; at most {} are possible", uniforms,
               CallMonitor::max_arguments);
   Case c;
@@ -160,11 +226,14 @@ Case command_case(const CommandDistribution& distribution, const WorkerOptions& 
   c.rerun_arguments = fmt::format("--command '{}' --domain '{}'", distribution.command, distribution.domain);
   if (!distribution.breaks.empty()) c.rerun_arguments += fmt::format(" --breaks '{}'", distribution.breaks);
   if (distribution.uniforms > 0) c.rerun_arguments += fmt::format(" --uniforms {}", distribution.uniforms);
+  if (distribution.uniforms < 0) c.rerun_arguments += " --uniforms own";
+  if (distribution.is_log) c.rerun_arguments += " --log-density";
   c.check = [=, title = c.title()](const CaseOptions& o) {
     json request = check_request("command", distribution.command, title, o);
     request["domain"] = distribution.domain;
     request["breaks"] = distribution.breaks;
     request["uniforms"] = uniforms;
+    request["is_log"] = distribution.is_log;
     return report_from_json(call_worker(std::move(request), worker));
   };
   return c;

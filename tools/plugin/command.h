@@ -4,8 +4,10 @@
 /// Questions, in the protocol of program.h:
 ///   "sample N K\n" and N K numbers : N points u of [0,1)^K. Answer: N C numbers, the samples x, where C is the number
 ///                                    of columns of --domain.
+///   "draw N 1\n" and N numbers     : instead of "sample", for programs with random numbers of their own: N seeds,
+///                                    whole numbers below 2^53. Answer: N C numbers, one sample for each seed.
 ///   "pdf N C\n" and N C numbers    : N points x of the domain. Answer: N numbers, the densities; for discrete outcomes
-///                                    their probabilities.
+///                                    their probabilities. Or the logarithms of these, as stated.
 /// examples/program-python/sampler.py is an example in 30 lines.
 
 #include <plugin/worker.h>
@@ -17,10 +19,12 @@
 namespace carlo {
 
 struct CommandDistribution {
-  std::string command; ///< command line for /bin/sh
-  std::string domain;  ///< see parse_domain
-  std::string breaks;  ///< see parse_breaks; may be empty
-  int uniforms = 0;    ///< K; 0: the dimension of the domain
+  std::string command;                   ///< command line for /bin/sh
+  std::string domain;                    ///< see parse_domain
+  std::string breaks;                    ///< see parse_breaks; may be empty
+  int uniforms = 0;                      ///< K; 0: the dimension of the domain; own_numbers: none
+  bool is_log = false;                   ///< "pdf" answers logarithms
+  static constexpr int own_numbers = -1; ///< of uniforms: the program draws random numbers from a seed
 };
 
 /// The program's sampler as one case. It is checked by every law of check_laws that needs only sample and pdf. Like a

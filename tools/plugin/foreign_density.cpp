@@ -41,8 +41,8 @@ json describe(const Plugin& plugin, CallMonitor& monitor) {
   for (std::size_t i = 0; i < plugin.samplers.size(); ++i) {
     const mc_sampler& s = plugin.samplers[i];
     const ParsedDomain domain = parse_domain(domain_text(s));
-    const bool is_lebesgue =
-        domain.outcomes == 0 && s.outcomes == 0 && static_cast<std::size_t>(domain.chart.dim) == domain.columns.size();
+    const bool is_lebesgue = !domain.outcomes.any() && s.outcomes == 0 &&
+                             static_cast<std::size_t>(domain.chart.dim) == domain.columns.size();
     if (!is_lebesgue) continue;
     const PluginDistribution d(s, default_parameters(s), monitor);
     all.push_back(

@@ -30,7 +30,8 @@ void require_valid(const mc_sampler& s, std::size_t index) {
   mc::with_context(fmt::format("sampler {}", s.name), [&] {
     mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_PRODUCT, "domain = {} is none of mc_domain, 1 to 8",
                 s.domain);
-    mc::require(s.domain != MC_BOX || (s.dim >= 1 && s.dim <= 3), "dim = {}; a box has 1 to 3 dimensions", s.dim);
+    mc::require(s.domain != MC_BOX || (s.dim >= 1 && s.dim <= 3),
+                "dim = {}; MC_BOX has 1 to 3 dimensions, MC_PRODUCT up to 6", s.dim);
     mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0),
                 "interval [{}, {}] needs lo < hi", s.lo[0], s.hi[0]);
     mc::require(s.domain != MC_DISCRETE || (s.hi[0] >= 1 && s.hi[0] <= 1 << 24 && s.hi[0] == std::floor(s.hi[0])),
@@ -38,7 +39,7 @@ void require_valid(const mc_sampler& s, std::size_t index) {
     mc::require(s.domain != MC_DISCRETE || (!s.invert && !s.eval), "discrete outcomes have neither invert nor eval");
     mc::require(s.domain != MC_PRODUCT || s.parts, "domain is MC_PRODUCT, but parts is NULL");
     const ParsedDomain domain = parse_domain(domain_text(s));
-    mc::require(s.domain != MC_PRODUCT || domain.outcomes == 0, "parts = '{}'; outcomes alone are MC_DISCRETE",
+    mc::require(s.domain != MC_PRODUCT || !domain.outcomes.any(), "parts = '{}'; outcomes alone are MC_DISCRETE",
                 s.parts);
     mc::require(s.outcomes >= 0 && s.outcomes <= 1000, "outcomes = {} must lie in 0 to 1000", s.outcomes);
     mc::require(s.outcomes == 0 || s.domain != MC_DISCRETE, "outcomes beside a density, but domain is MC_DISCRETE");
@@ -47,7 +48,10 @@ void require_valid(const mc_sampler& s, std::size_t index) {
     mc::require(s.uniforms >= 0 && s.uniforms <= CallMonitor::max_arguments, "uniforms = {} must lie in 0 to {}",
                 s.uniforms, CallMonitor::max_arguments);
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
-    mc::require(s.sample, "it has no function sample");
+    mc::require(s.sample || s.sample_stream, "it has no function sample");
+    mc::require(!s.sample || !s.sample_stream, "it has sample and sample_stream; leave one out");
+    mc::require(!s.sample_stream || (!s.invert && !s.weight && s.uniforms == 0),
+                "it has sample_stream; invert, weight and uniforms need sample");
     mc::require(s.pdf, "it has no function pdf");
     mc::require(!s.weight || s.eval, "it states a weight, but has no eval to compare it with");
     mc::require(!s.invert || s.uniforms == 0 || s.uniforms == domain.chart.dim,
@@ -118,6 +122,8 @@ std::vector<T> table(const char* what, const T* first, std::size_t count, std::s
   return all;
 }
 
+double next_uniform(void* random) { return static_cast<mc::Pcg*>(random)->uniform<double>(); }
+
 std::string interval_text(const char* name, double lo, double hi) {
   return fmt::format("{}={:.17g}:{:.17g}", name, lo, hi);
 }
@@ -162,18 +168,30 @@ PluginDistribution::PluginDistribution(const mc_sampler& distribution, std::vect
   void* self = distribution.create(parameters_->data());
   monitor.leave();
   mc::require(self != nullptr, "create rejects the parameters");
-  self_ = {self, [destroy = distribution.destroy, &monitor](void* made) {
-             if (!destroy) return;
-             monitor.enter("destroy");
-             destroy(made);
-             monitor.leave();
-           }};
+  const auto destroy = [destroy = distribution.destroy, &monitor](void* made) {
+    if (!destroy) return;
+    monitor.enter("destroy");
+    destroy(made);
+    monitor.leave();
+  };
+  self_ = {self, destroy};
 }
 
 int PluginDistribution::sample(const double* u, double* x) const {
   monitor_->enter("sample", "u", u, uniforms());
   const int drawn = distribution_.sample(self_.get(), u, x);
   monitor_->leave();
+  return checked(drawn);
+}
+
+int PluginDistribution::sample(mc::Pcg& random, double* x) const {
+  monitor_->enter("sample_stream");
+  const int drawn = distribution_.sample_stream(self_.get(), next_uniform, &random, x);
+  monitor_->leave();
+  return checked(drawn);
+}
+
+int PluginDistribution::checked(int drawn) const {
   mc::require(drawn >= 0, "sample returned {}; it is MC_FAILED, MC_POINT or MC_OUTCOME + k", drawn);
   mc::require(drawn < MC_OUTCOME || distribution_.outcomes > 0 || distribution_.domain == MC_DISCRETE,
               "sample returned {}, MC_OUTCOME + {}, but it declares no outcomes; set outcomes and probability, or "
@@ -249,13 +267,17 @@ Plugin load_plugin(const std::string& path, CallMonitor& monitor) {
   mc::require(info->abi >= 1 && info->abi <= MC_PLUGIN_ABI,
               "it is made for version {} of <mc/check/plugin.h>, this carlo for 1 to {}; use the header of this carlo",
               info->abi, MC_PLUGIN_ABI);
-  const bool first = info->abi == 1, before_outputs = info->abi < 3;
+  constexpr std::size_t sampler_sizes[] = {offsetof(mc_sampler, parts), offsetof(mc_sampler, sample_stream),
+                                           offsetof(mc_sampler, sample_stream), sizeof(mc_sampler)};
+  constexpr std::size_t integrand_sizes[] = {0, offsetof(mc_integrand, outputs), sizeof(mc_integrand),
+                                             sizeof(mc_integrand)};
+  static_assert(std::size(sampler_sizes) == MC_PLUGIN_ABI && std::size(integrand_sizes) == MC_PLUGIN_ABI);
+  const std::size_t version = info->abi - 1;
   Plugin plugin;
-  plugin.samplers = table("sampler", info->samplers, info->sampler_count, info->sampler_size,
-                          first ? offsetof(mc_sampler, parts) : sizeof(mc_sampler));
-  if (!first)
-    plugin.integrands = table("integrand", info->integrands, info->integrand_count, info->integrand_size,
-                              before_outputs ? offsetof(mc_integrand, outputs) : sizeof(mc_integrand));
+  plugin.samplers = table("sampler", info->samplers, info->sampler_count, info->sampler_size, sampler_sizes[version]);
+  if (version > 0)
+    plugin.integrands =
+        table("integrand", info->integrands, info->integrand_count, info->integrand_size, integrand_sizes[version]);
   mc::require(!plugin.samplers.empty() || !plugin.integrands.empty(), "it lists neither distributions nor integrands");
   return plugin;
 }

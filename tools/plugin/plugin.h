@@ -29,6 +29,7 @@ class PluginDistribution {
   int uniforms() const { return uniforms_; }       ///< uniform numbers per sample
 
   int sample(const double* u, double* x) const; ///< returns a value of mc_drawn
+  int sample(mc::Pcg& random, double* x) const; ///< the same by sample_stream
   double pdf(const double* x) const;
   bool invert(const double* x, double* u) const;
   double eval(const double* x) const;
@@ -37,6 +38,8 @@ class PluginDistribution {
   std::vector<double> breaks(int axis) const; ///< in the unit of the axis
 
  private:
+  int checked(int drawn) const;
+
   mc_sampler distribution_;
   int coordinates_, uniforms_;
   std::shared_ptr<std::vector<double>> parameters_;
@@ -66,15 +69,24 @@ mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const 
 /// Checks every law of check_laws that the sampler's functions support.
 mc::Report check_plugin(const PluginDistribution& distribution, const std::string& title, const CaseOptions& options);
 
+/// Parameters that are drawn at random.
+struct RandomParameters {
+  int cases = 0; ///< for each sampler and set; 0: none are random
+  std::uint64_t seed = 1;
+};
+
 /// One case for each sampler of the shared object and each parameter set that contains only parameters of this sampler.
 /// A sampler without a matching set has one case with its defaults. Loading and checking run in separate processes, see
 /// worker.h.
 ///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h.
+///   random : the parameters that a set leaves out are random in their ranges, uniform, or log-uniform if 0 < lo and hi
+///            >= 100 lo. A sampler without parameters is checked once.
 ///   names  : the requested samplers, empty for all; a set out of range of any other sampler is no error.
 ///   throws : Error for a plugin that load_plugin refuses, that crashes or exceeds a limit, or for a set that no
 ///            sampler accepts.
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets,
-                       const std::vector<std::string>& names, const WorkerOptions& worker);
+                       const std::vector<std::string>& names, const WorkerOptions& worker,
+                       const RandomParameters& random = {});
 
 /// Answers the requests of plugin_cases in the worker.
 nlohmann::json run_plugin_task(const nlohmann::json& request, CallMonitor& monitor);

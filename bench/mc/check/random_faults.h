@@ -55,7 +55,7 @@ inline Subject reweighted(const Subject& right, double most, const std::function
 
 /// Ranks of chart coordinates among samples, per axis: a scale on which the marginal densities are nearly uniform.
 struct Ranks {
-  std::array<std::vector<double>, 3> sorted;
+  mc::PerAxis<std::vector<double>> sorted;
   std::vector<Coordinates> points;
 
   Ranks(const Subject& s, std::uint64_t seed, std::size_t n) {
@@ -70,7 +70,7 @@ struct Ranks {
   }
   Coordinates operator()(const Coordinates& v) const {
     Coordinates r{};
-    for (std::size_t a = 0; a < 3 && !sorted[a].empty(); ++a) {
+    for (std::size_t a = 0; a < sorted.size() && !sorted[a].empty(); ++a) {
       const auto above = std::upper_bound(sorted[a].begin(), sorted[a].end(), v[a]);
       const auto i = static_cast<std::size_t>(above - sorted[a].begin());
       const double lo = i > 0 ? sorted[a][i - 1] : 0.0, hi = i < sorted[a].size() ? sorted[a][i] : 1.0;
@@ -81,31 +81,35 @@ struct Ranks {
   }
 };
 
+/// Number of random numbers for the axes of a fault: for three axes at least, so that the seeds of faults in fewer
+/// dimensions give the same faults.
+inline std::size_t drawn(int dim) { return static_cast<std::size_t>(std::max(dim, 3)); }
+
 /// A rotated and stretched frame of the ranks that preserves volumes.
 struct Frame {
-  std::array<std::array<double, 3>, 3> axes{};
+  mc::PerAxis<mc::PerAxis<double>> axes{};
   Frame(Pcg& r, int dim) {
-    for (std::size_t a = 0; a < 3; ++a) axes[a][a] = 1;
+    for (std::size_t a = 0; a < axes.size(); ++a) axes[a][a] = 1;
     for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(dim); ++a) {
       const double t = random_index(r, 2) == 0 ? 0.0 : 2 * mc::pi<double> * uniform(r), c = std::cos(t),
                    s = std::sin(t);
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < axes.size(); ++k) {
         const double x = axes[k][a], y = axes[k][a + 1];
         axes[k][a] = c * x + s * y;
         axes[k][a + 1] = c * y - s * x;
       }
     }
-    std::array<double, 3> stretch{};
-    for (double& s : stretch) s = log_uniform(r, 0.6, 1.7);
+    mc::PerAxis<double> stretch{};
+    for (std::size_t a = 0; a < drawn(dim); ++a) stretch[a] = log_uniform(r, 0.6, 1.7);
     double volume = 1;
     for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) volume *= stretch[a];
-    for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t a = 0; a < axes.size(); ++a)
       for (double& x : axes[a]) x *= stretch[a] / std::pow(volume, 1.0 / dim);
   }
   Coordinates operator()(const Coordinates& v, const Coordinates& centre = {}) const {
     Coordinates x{};
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t k = 0; k < 3; ++k) x[a] += axes[a][k] * (v[k] - centre[k]);
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      for (std::size_t k = 0; k < axes.size(); ++k) x[a] += axes[a][k] * (v[k] - centre[k]);
     return x;
   }
 };
@@ -116,11 +120,12 @@ inline FaultySubject random_signs(const Subject& right, Pcg& r, double size, dou
   const Frame frame(r, right.dim);
   const double scale = std::pow(patches, 1.0 / right.dim);
   const std::uint64_t seed = r.next64();
-  const Coordinates offset{uniform(r), uniform(r), uniform(r)};
+  Coordinates offset{};
+  for (std::size_t a = 0; a < drawn(right.dim); ++a) offset[a] = uniform(r);
   return {"random signs", size, reweighted(right, size, [=](const Coordinates& v) {
             const Coordinates x = frame((*ranks)(v));
             std::uint64_t cell = seed;
-            for (std::size_t a = 0; a < 3; ++a)
+            for (std::size_t a = 0; a < drawn(right.dim); ++a)
               cell = mc::hash(cell, static_cast<std::uint64_t>(
                                         static_cast<std::int64_t>(std::floor(scale * x[a] + offset[a]) + 1000)));
             return cell & 1 ? size : -size;
@@ -134,8 +139,12 @@ inline FaultySubject one_region(const Subject& right, Pcg& r, double size, doubl
   const bool box = random_index(r, 2) == 0;
   const Coordinates centre = (*ranks)(ranks->points[r.next64() % ranks->points.size()]);
   const auto distance = [=](const Coordinates& v) {
-    const Coordinates x = frame((*ranks)(v), centre);
-    return box ? std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])}) : std::hypot(x[0], x[1], x[2]);
+    double largest = 0, squares = 0;
+    for (const double x : frame((*ranks)(v), centre)) {
+      largest = std::max(largest, std::abs(x));
+      squares += x * x;
+    }
+    return box ? largest : std::sqrt(squares);
   };
   std::vector<double> distances;
   for (const Coordinates& v : ranks->points) distances.push_back(distance(v));
@@ -150,7 +159,8 @@ inline FaultySubject one_region(const Subject& right, Pcg& r, double size, doubl
 /// Returns a smooth error in ranks: a wrong exponent along an axis, a tilt along it, or a correlation of two axes.
 inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 16);
-  const auto axis = static_cast<std::size_t>(random_index(r, right.dim)), other = (axis + 1) % 3;
+  const auto axis = static_cast<std::size_t>(random_index(r, right.dim)),
+             other = (axis + 1) % static_cast<std::size_t>(right.dim);
   const int form = random_index(r, right.dim > 1 ? 3 : 2);
   const char* names[] = {"exponent", "tilt", "correlation"};
   const double sign = random_index(r, 2) == 0 ? size : -size;
@@ -158,7 +168,7 @@ inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
             const Coordinates at = (*ranks)(v);
             if (form == 0) return std::clamp(sign * (1 + std::log(at[axis])), -0.9, 3 * size);
             if (form == 1) return sign * (2 * at[axis] - 1);
-            return sign * (2 * at[axis] - 1) * (2 * at[right.dim == 2 ? 1 - axis : other] - 1);
+            return sign * (2 * at[axis] - 1) * (2 * at[other] - 1);
           })};
 }
 
@@ -166,7 +176,7 @@ inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
 inline FaultySubject wave(const Subject& right, Pcg& r, double size) {
   const double k = uniform_between(r, -100, 100), l = uniform_between(r, -100, 100), m = uniform_between(r, -15, 15),
                phase = uniform(r);
-  const bool space = right.dim == 3;
+  const bool space = right.dim >= 3;
   return {"wave", size, reweighted(right, size, [=](const Coordinates& v) {
             const double turns = space ? 0.15 * (k * v[0] + l * v[1]) + m * v[2] : k * v[0] + l * v[1];
             return size * std::cos(2 * mc::pi<double> * (turns + phase));

@@ -48,6 +48,10 @@ Subject ball_in_box(Pcg& r);
 Subject normals(Pcg& r);
 /// A table in x times a power of y, sheared on a torus.
 Subject product(Pcg& r);
+/// A mixture of products of powers, a mixture of boxes or a ball, in a box of four to six dimensions.
+Subject many_dimensions(Pcg& r);
+/// Rotations near a random one, by a power of the cosine of half the angle.
+Subject rotations(Pcg& r);
 /// Discrete outcomes, up to 1e6.
 Subject outcomes(Pcg& r);
 

@@ -95,7 +95,7 @@ void count_outcomes(const DrawStats& draws, FitCounts& counts) {
 }
 
 // Coordinates of samples on each axis: of the pilot and of the first samples.
-using KeptCoordinates = std::array<std::vector<double>, 3>;
+using KeptCoordinates = PerAxis<std::vector<double>>;
 
 // Counts samples that are points, in the same order as count_expected.
 void count_points(std::span<const Subject::Coordinates> points, std::span<const double> densities,

@@ -2,8 +2,12 @@
 
 #include <mc/check/subject/quantization.h>
 #include <mc/check/table.h>
+#include <mc/core/error.h>
+#include <mc/random/hash.h>
+#include <mc/stats/multiple_testing.h>
 
 #include <chrono>
+#include <optional>
 
 namespace mc {
 
@@ -54,6 +58,22 @@ Report check_laws(const AnyDistribution& original, const LawOptions& options) {
   if (distribution.ns_per_sample) report.ns_per_sample = distribution.ns_per_sample();
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+Report check_random_parameters(int count, const std::function<AnyDistribution(Pcg& random)>& make,
+                               const LawOptions& options) {
+  require(count >= 1, "check_random_parameters: count = {}; at least 1 is needed", count);
+  LawOptions each = options;
+  each.statistics.alpha = sidak_level(options.statistics.alpha, 1.0 / count);
+  Pcg random(options.statistics.seed, 55);
+  std::optional<Report> worst;
+  for (int i = 0; i < count; ++i) {
+    each.statistics.seed = hash(options.statistics.seed, static_cast<std::uint64_t>(i));
+    Report report = check_laws(make(random), each);
+    if (!report.passed()) return report;
+    if (!worst || report.p() < worst->p()) worst = std::move(report);
+  }
+  return std::move(*worst);
 }
 
 } // namespace mc

@@ -36,6 +36,13 @@ AnyDistribution with_tolerances(AnyDistribution distribution, const LawOptions& 
 /// Tests the deterministic laws, then runs check_subject unless options.statistics.samples is 0.
 Report check_laws(const AnyDistribution& distribution, const LawOptions& options = {});
 
+/// Checks a family of distributions, such as a BSDF over its roughness and directions, at random parameters.
+///   count  : number of members, >= 1. All their tests together have options.statistics.alpha.
+///   make   : returns a member, make(random), whose name states its parameters.
+///   return : the report of the member that failed first; if all passed, of the one with the smallest p.
+Report check_random_parameters(int count, const std::function<AnyDistribution(Pcg& random)>& make,
+                               const LawOptions& options = {});
+
 /// The same for a warp, or any struct with Domain, domain(), sample(u) and pdf(x).
 template <class W> Report check_laws(const W& warp, const LawOptions& options = {}) {
   static_assert(detail::has_domain<W>, "check_laws: a warp needs `using Domain = ...` and domain() const");

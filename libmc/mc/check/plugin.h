@@ -31,8 +31,9 @@ extern "C" {
 
 /// Version of the structs below. carlo accepts plugins of this version and of every earlier version, and rejects later
 /// versions. Version 2 adds MC_PRODUCT, outcomes in addition to a density, breaks, open intervals and integrands.
-/// Version 3 adds integrands with several outputs, with up to 1024 dimensions and with an importance density.
-#define MC_PLUGIN_ABI 3
+/// Version 3 adds integrands with several outputs, with up to 1024 dimensions and with an importance density. Version 4
+/// adds samplers that take any number of random numbers.
+#define MC_PLUGIN_ABI 4
 
 /// The domain of the points x, and the measure of the density.
 enum mc_domain {
@@ -45,7 +46,7 @@ enum mc_domain {
   /// x[0] = 0, 1, ..., hi[0] - 1, at most 2^24 outcomes; pdf is the probability. No invert, eval or weight.
   MC_DISCRETE = 7,
   /// The product of the factors in `parts`, in the syntax of --domain: "ball"; "annulus=0.5"; "x=-inf:inf,y=-inf:inf"
-  /// is the plane; "sphere,t=0:1" is a product. At most three dimensions and four coordinates.
+  /// is the plane; "sphere,t=0:1" is a product; "rotation" are unit quaternions. At most six coordinates.
   MC_PRODUCT = 8
 };
 
@@ -110,6 +111,11 @@ typedef struct mc_sampler {
   /// exactly. The array stays valid as long as self. Units: the coordinate of an interval or box; radius and azimuth in
   /// degrees (disk, annulus); angle from +z and azimuth in degrees (sphere, hemisphere).
   int32_t (*breaks)(const void* self, int32_t axis, const double** places);
+
+  /* Since version 4. */
+  /// Instead of sample, for samplers that take a varying number of random numbers, such as rejection: draws x with
+  /// numbers next(source) in [0,1). Returns one of mc_drawn. No invert and no weight.
+  int32_t (*sample_stream)(const void* self, double (*next)(void* source), void* source, double* x);
 } mc_sampler;
 
 /// An integral over a box, for `carlo integrate --plugin`, `carlo converge --plugin` and `carlo trade --plugin`.

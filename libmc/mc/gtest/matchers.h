@@ -6,8 +6,8 @@
 ///     (docs/methods/bsdf-conventions.md).
 ///   EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain[, mc::SubjectOptions]) : the statistical tests; sample(u) or
 ///     sample(mc::Pcg&) returns a point or an optional point.
-///   EXPECT_DISTRIBUTION(d, law[, mc::SubjectOptions]) : the statistical tests of a generator with the interface of
-///     <random>, d(engine). `law` is its density, the probability of an integer, or mc::ClaimedCdf(cdf).
+///   EXPECT_DISTRIBUTION(d, law[, mc::SubjectOptions]) : the statistical tests of a generator like those of the
+///     standard library, d(engine). `law` is its density, the probability of an integer, or mc::ClaimedCdf(cdf).
 ///   EXPECT_MEAN(values, value[, alpha = 0.001])   : Student's t test of a range of numbers.
 /// A failure begins with the finding: observed value, expected value and place (u, direction with its angles, or cell).
 /// The likely cause and the check follow. The last line gives the number of other failed checks and the call that

@@ -181,4 +181,40 @@ TEST(Laws, LawsThatCannotBeTried_AreListed) {
             "double against 50 digits (no cast to 50 digits), weight = f / pdf (a sample states no weight and no pdf)");
 }
 
+// A sampler of a varying number of random numbers, right and wrong.
+TEST(Laws, RejectionSampler_NeedsNoU) {
+  const auto disk = [](double radius) {
+    return mc::make_distribution(
+        "disk", mc::Disk<double>{},
+        [radius](mc::Pcg& random) {
+          for (;;) {
+            const double x = 2 * random.uniform<double>() - 1, y = 2 * random.uniform<double>() - 1;
+            if (x * x + y * y <= radius * radius) return mc::Vec2<double>(x, y);
+          }
+        },
+        [](const mc::Vec2<double>&) { return 1 / mc::pi<double>; });
+  };
+  const mc::Report right = check_laws(disk(1), cheap());
+  EXPECT_TRUE(right.passed()) << right.to_string();
+  EXPECT_THAT(right.untried_text(), testing::HasSubstr("boundary and branches of u (sample takes no u)"));
+  EXPECT_FALSE(check_laws(disk(0.99), cheap()).passed());
+}
+
+// x^(n - 1) n, which is right for every n, and for n < 8 only.
+TEST(Laws, RandomParameters_FindTheWrongMember) {
+  const auto family = [](double right_below) {
+    return [=](mc::Pcg& random) {
+      const double n = 1 + 9 * random.uniform<double>(), claimed = n < right_below ? n : 1.1 * n;
+      return mc::make_distribution(
+          fmt::format("power {:.3g}", n), mc::Interval<double>(0, 1), [n](double u) { return std::pow(u, 1 / n); },
+          [claimed](double x) { return claimed * std::pow(x, claimed - 1); });
+    };
+  };
+  const mc::LawOptions options{.statistics = {.samples = 20'000}};
+  EXPECT_TRUE(mc::check_random_parameters(20, family(10), options).passed());
+  const mc::Report wrong = mc::check_random_parameters(20, family(8), options);
+  EXPECT_EQ(wrong.verdict(), mc::Verdict::fail);
+  EXPECT_THAT(wrong.subject, testing::AnyOf(testing::StartsWith("power 8"), testing::StartsWith("power 9")));
+}
+
 } // namespace

@@ -49,7 +49,7 @@ TEST_P(EveryDomain, ChartRoundTrips) {
       measure += at.jacobian / 1000;
       EXPECT_TRUE(rounding == Rounding::floats || d.chart.contains(at.x)) << named.text;
       const mc::AnyDomain::Coordinates back = d.chart.to_unit(at.x);
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], v[k], 1e-12) << named.text;
+      for (std::size_t k = 0; k < v.size(); ++k) EXPECT_NEAR(back[k], v[k], 1e-12) << named.text;
     }
     // The charts of bounded domains have constant Jacobians, except for the triangle.
     if (std::isfinite(named.measure)) {
@@ -67,7 +67,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Named{"triangle", 2, 2, 0.5, {0.6, 0.5}}, Named{"ball", 3, 3, 4 * pi / 3, {1, 0.1, 0}},
                     Named{"sphere", 2, 3, 4 * pi, {1, 0.1, 0}}, Named{"hemisphere", 2, 3, 2 * pi, {0, 0, -1}},
                     Named{"sphere,t=0:2", 3, 4, 8 * pi, {0, 0, 1, 2.1}},
-                    Named{"t=0:2,sphere", 3, 4, 8 * pi, {2.1, 0, 0, 1}}));
+                    Named{"t=0:2,sphere", 3, 4, 8 * pi, {2.1, 0, 0, 1}},
+                    Named{"rotation", 3, 4, pi* pi, {0.6, 0.8, 0, 0.1}},
+                    Named{"rotation,a=0:2,b=-1:1", 5, 6, 4 * pi* pi, {0, 0, 0, 1, 1, 2}},
+                    Named{"a=0:1,b=0:1,c=0:1,d=0:1,e=0:1,f=0:3", 6, 6, 3, {0, 0, 0, 0, 0, 4}}));
 
 TEST(ParsedDomain, PrintedPoints_MayBeRounded) {
   const mc::PointArray w{0.6, 0.8, 1e-6};
@@ -80,22 +83,55 @@ TEST(ParsedDomain, PrintedPoints_MayBeRounded) {
 
 TEST(ParsedDomain, Outcomes_AreIntegers) {
   const ParsedDomain d = parse_domain("discrete=3");
-  EXPECT_EQ(d.outcomes, 3);
+  EXPECT_EQ(d.outcomes.count(), 3);
   EXPECT_EQ(d.chart.dim, 0);
-  EXPECT_TRUE(d.chart.contains({2}));
-  EXPECT_FALSE(d.chart.contains({3}));
-  EXPECT_FALSE(d.chart.contains({0.5}));
+  const auto contains = [&](double k) { return d.contains(&k); };
+  EXPECT_TRUE(contains(2));
+  EXPECT_FALSE(contains(3));
+  EXPECT_FALSE(contains(0.5));
+  EXPECT_FALSE(contains(NAN));
+  EXPECT_EQ(parse_domain("discrete=-3:4").outcomes.count(), 8);
+}
+
+// Infinitely many outcomes end at the extremes of samples, and all others are one more.
+TEST(ParsedDomain, InfiniteOutcomes_AreBoundedBySamples) {
+  carlo::Outcomes all = parse_domain("discrete=-inf:inf").outcomes;
+  all.bound_by(-4, 7);
+  EXPECT_EQ(all.count(), 13);
+  EXPECT_EQ(all.index(-4), 0);
+  EXPECT_EQ(all.index(7), 11);
+  EXPECT_EQ(all.index(8), 12);
+  EXPECT_EQ(all.index(-1e9), 12);
+  EXPECT_EQ(all.index(0.5), -1);
+  carlo::Outcomes below = parse_domain("discrete=-inf:0").outcomes;
+  below.bound_by(-1e9, 0);
+  EXPECT_EQ(below.count(), (1 << 20) + 1);
+  EXPECT_EQ(below.index(0), (1 << 20) - 1);
+}
+
+TEST(ParsedDomain, PointsAndOutcomes_HaveAFirstColumn) {
+  const ParsedDomain d = parse_domain("outcome=2,x=0:3");
+  EXPECT_TRUE(d.is_mixed());
+  EXPECT_EQ(d.columns, (std::vector<std::string>{"outcome", "x"}));
+  const std::array<double, 2> point{-1, 2.5}, outcome{1, 99}, none{2, 0}, outside{-1, 4};
+  EXPECT_EQ(d.outcome_of(point.data()), -1);
+  EXPECT_EQ(d.outcome_of(outcome.data()), 1);
+  EXPECT_EQ(d.point_of(point.data())[0], 2.5);
+  EXPECT_EQ(d.row_of(mc::PointArray{2.5}), (std::vector<double>{-1, 2.5}));
+  EXPECT_EQ(d.row_of(1), (std::vector<double>{1, 0}));
+  EXPECT_TRUE(d.contains(point.data()) && d.contains(outcome.data()));
+  EXPECT_FALSE(d.contains(none.data()) || d.contains(outside.data()));
 }
 
 TEST(ParsedDomain, WhiteSpace_IsIgnored) {
   EXPECT_EQ(parse_domain(" t = 0 : 1,\n\tdisk \r\n").text, parse_domain("t=0:1,disk").text);
-  EXPECT_EQ(parse_domain("discrete = 3\n").outcomes, 3);
+  EXPECT_EQ(parse_domain("discrete = 3\n").outcomes.count(), 3);
 }
 
 TEST(ParsedDomain, InvalidText_IsOneLineError) {
   const auto refused = [](const char* text) { return error_of([&] { parse_domain(text); }); };
   EXPECT_THAT(refused(""), HasSubstr("'' is not of the form name=lo:hi"));
-  EXPECT_THAT(refused("sphere,disk"), HasSubstr("4 dimensions in 5 columns"));
+  EXPECT_THAT(refused("sphere,rotation"), HasSubstr("5 dimensions in 7 columns"));
   EXPECT_THAT(refused("disk,x=0:1"), HasSubstr("'x' is bounded twice"));
   EXPECT_THAT(refused("x=0:nan"), HasSubstr("'nan' in 'x=0:nan' is not a number"));
   EXPECT_THAT(refused("x=0:1,discrete=3"), HasSubstr("'discrete=3' stands alone"));

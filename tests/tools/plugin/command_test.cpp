@@ -76,6 +76,58 @@ TEST_F(Command, EveryApplicableLaw_IsTested) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
+const std::string rejection = MC_SOURCE_DIR "/examples/program-python/rejection.py";
+
+// A program with random numbers of its own answers seeds.
+TEST_F(Command, RejectionSampler_DrawsFromSeeds) {
+  ValidateCommandOptions o = options("python3 '" + rejection + "'");
+  o.uniforms = "own";
+  const Output right = run(o);
+  EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
+  std::string text = mc::read_file(rejection);
+  const std::string from = "x * x + y * y <= 1", to = "x * x + y * y <= 1 and x < 0.9";
+  o.sampler_command = "python3 '" + write("cut.py", text.replace(text.find(from), from.size(), to)) + "'";
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+  o.uniforms = "some";
+  EXPECT_THAT(refusal(o), HasSubstr("--uniforms 'some' must be a number, or own"));
+}
+
+// A program over a domain, from the bodies of its functions sample(u) and pdf(x).
+std::string program(const std::string& sample, const std::string& pdf) {
+  std::string text = mc::read_file(script);
+  const std::size_t begin = text.find("def sample"), end = text.find("def answer");
+  return text.replace(begin, end - begin,
+                      "def sample(u):\n    return " + sample + "\n\n\ndef pdf(x):\n    return (" + pdf + ",)\n\n\n");
+}
+
+TEST_F(Command, OtherKindsOfDistributions) {
+  struct Kind {
+    std::string domain, sample, pdf, wrong;
+    bool is_log = false;
+  };
+  const std::vector<Kind> kinds = {
+      // A geometric distribution, without an end.
+      {"discrete=0:inf", "(math.floor(math.log(1 - u[0]) / math.log(0.7)),)", "0.3 * 0.7 ** x[0]",
+       "0.28 * 0.72 ** x[0]"},
+      // A tenth of the samples is an outcome.
+      {"outcome=1,x=0:1", "(0, 0) if u[0] < 0.1 else (-1, math.sqrt(u[1]))", "0.1 if x[0] == 0 else 1.8 * x[1]",
+       "0.13 if x[0] == 0 else 1.74 * x[1]"},
+      // Four independent exponentials, by the logarithm of their density.
+      {"a=0:inf,b=0:inf,c=0:inf,d=0:inf", "[-math.log(1 - v) for v in u]", "-sum(x)",
+       "-1.05 * sum(x) + 4 * math.log(1.05)", true},
+  };
+  for (const Kind& kind : kinds) {
+    ValidateCommandOptions o =
+        options("python3 '" + write("right.py", program(kind.sample, kind.pdf)) + "'", kind.domain);
+    o.log_density = kind.is_log;
+    const Output right = run(o);
+    EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
+    o.sampler_command = "python3 '" + write("wrong.py", program(kind.sample, kind.wrong)) + "'";
+    const Output wrong = run(o);
+    EXPECT_EQ(wrong.code, carlo::exit_failed) << wrong.text;
+  }
+}
+
 // A program that returns the right set of answers to a batch in the wrong order.
 TEST_F(Command, BatchAnswers_EqualSingleAnswers) {
   const Output out = run(changed("    sink.write(results.tobytes())", "    sink.write(results[::-1].tobytes())"));
@@ -132,7 +184,7 @@ TEST_F(Command, InvalidOptions_AreOneLineErrors) {
   EXPECT_THAT(refusal(options("true", "")), HasSubstr("--command needs the --domain"));
   EXPECT_THAT(refusal(options("true", "dsk")), HasSubstr("did you mean 'disk'"));
   ValidateCommandOptions o = options("true");
-  o.uniforms = 7;
+  o.uniforms = "7";
   EXPECT_THAT(refusal(o), HasSubstr("--uniforms 7; at most 6"));
   o.plugin = "a.so";
   EXPECT_THAT(refusal(o), HasSubstr("give one of --plugin, --command and --samples-file"));

@@ -124,7 +124,8 @@ extern "C" const mc_plugin_info* mc_plugin() {
   integrand.eval = linear;
   integrand.outputs = 99;
   integrand.uniforms = -1;
-  static mc_plugin_info info = {2, sizeof(mc_sampler), 0, nullptr, offsetof(mc_integrand, outputs), 1, &integrand};
+  static mc_plugin_info info = {
+      2, offsetof(mc_sampler, sample_stream), 0, nullptr, offsetof(mc_integrand, outputs), 1, &integrand};
   return &info;
 }
 #elif !defined(FLAW_no_entry)

@@ -265,6 +265,31 @@ static double pdf_open(const void* self, const double* x) {
   return x[0] >= 0 ? exp(-x[0]) : 0;
 }
 
+/* The unit disk by rejection. */
+static int32_t sample_by_rejection(const void* self, double (*next)(void*), void* source, double* x) {
+  const double limit = *(const double*)self != 0 ? 0.81 : 1;
+  do {
+    x[0] = 2 * next(source) - 1;
+    x[1] = 2 * next(source) - 1;
+  } while (x[0] * x[0] + x[1] * x[1] > limit);
+  return MC_POINT;
+}
+static double pdf_by_rejection(const void* self, const double* x) {
+  (void)self;
+  return x[0] * x[0] + x[1] * x[1] <= 1 ? 0.31830988618379067 : 0;
+}
+
+/* x^(n - 1) n on the unit interval. */
+static int32_t sample_power(const void* self, const double* u, double* x) {
+  x[0] = pow(u[0], 1 / *(const double*)self);
+  return MC_POINT;
+}
+static double pdf_power(const void* self, const double* x) {
+  const double n = *(const double*)self;
+  return n * pow(x[0], n - 1);
+}
+
+static const mc_parameter exponent[] = {{"n", 2, 1, 1000}};
 static const mc_parameter faults[] = {
     {"pdf_high", 0, 0, 1}, {"weight_low", 0, 0, 1}, {"nan_sample", 0, 0, 1},    {"nan_pdf", 0, 0, 1},
     {"crash", 0, 0, 1},    {"hang", 0, 0, 1},       {"quit", 0, 0, 1},          {"leak", 0, 0, 1},
@@ -375,6 +400,18 @@ static const mc_sampler samplers[] = {
      .open_interval = 1,
      .sample = sample_open,
      .pdf = pdf_open},
+    {.name = "Stream",
+     .domain = MC_DISK,
+     .parameters = another,
+     .parameter_count = 1,
+     .pdf = pdf_by_rejection,
+     .sample_stream = sample_by_rejection},
+    {.name = "Power",
+     .domain = MC_INTERVAL,
+     .parameters = exponent,
+     .parameter_count = 1,
+     .sample = sample_power,
+     .pdf = pdf_power},
 };
 
 MC_PLUGIN(samplers)

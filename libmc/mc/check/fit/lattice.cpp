@@ -62,7 +62,7 @@ double lattice_step(const Subject& s, const Pilot& pilot, std::size_t axis) {
 }
 
 Subject with_lattices(const Subject& subject, const Pilot& pilot) {
-  std::array<double, 3> steps{};
+  PerAxis<double> steps{};
   bool any = false;
   for (std::size_t d = 0; d < static_cast<std::size_t>(subject.dim); ++d) {
     const double step = lattice_step(subject, pilot, d);

@@ -19,10 +19,10 @@ inline constexpr double min_resolved_steps = 64;
 
 /// The points of the pilot sample.
 struct Pilot {
-  std::vector<Subject::Coordinates> points;  ///< chart coordinates
-  std::vector<double> densities;             ///< claimed density at each point
-  std::array<std::vector<double>, 3> sorted; ///< coordinates of the points, sorted on each axis
-  DrawStats stats;                           ///< statistics of the pilot's draws
+  std::vector<Subject::Coordinates> points; ///< chart coordinates
+  std::vector<double> densities;            ///< claimed density at each point
+  PerAxis<std::vector<double>> sorted;      ///< coordinates of the points, sorted on each axis
+  DrawStats stats;                          ///< statistics of the pilot's draws
 
   /// Returns the fraction of the pilot below v on an axis.
   double rank(std::size_t axis, double v) const;

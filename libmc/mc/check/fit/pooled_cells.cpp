@@ -13,7 +13,7 @@ void join(Cell& a, const Cell& b) {
   a.variance += b.variance;
   a.observed += b.observed;
   a.squares += b.squares;
-  for (std::size_t d = 0; d < 3; ++d) {
+  for (std::size_t d = 0; d < max_chart_dim; ++d) {
     a.rank_lo[d] = std::min(a.rank_lo[d], b.rank_lo[d]);
     a.rank_hi[d] = std::max(a.rank_hi[d], b.rank_hi[d]);
   }

@@ -1,7 +1,8 @@
 #pragma once
 /// Counts of samples in cells, pooled until each cell expects enough samples.
 
-#include <array>
+#include <mc/check/subject/axis.h>
+
 #include <vector>
 
 namespace mc {
@@ -11,7 +12,7 @@ struct Cell {
   double p = 0;
   double variance = 0;              ///< variance of p, if p is an estimate
   double observed = 0, squares = 0; ///< sums of the weights of the samples (nearly all 1) and of their squares
-  std::array<double, 3> rank_lo{}, rank_hi{1, 1, 1}; ///< extent of the cell in ranks of the pilot, per axis
+  PerAxis<double> rank_lo{}, rank_hi = unit_corner; ///< extent of the cell in ranks of the pilot, per axis
 };
 
 /// Adds a sample to a cell.

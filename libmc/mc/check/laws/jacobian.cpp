@@ -6,14 +6,28 @@
 namespace mc {
 namespace {
 
-template <class T> using Matrix = std::array<std::array<T, 3>, 3>;
+template <class T> using Matrix = PerAxis<PerAxis<T>>;
 
-// Returns the determinant of the leading n rows and columns.
-template <class T> T determinant(const Matrix<T>& j, std::size_t n) {
-  if (n == 1) return j[0][0];
-  if (n == 2) return j[0][0] * j[1][1] - j[0][1] * j[1][0];
-  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
-         j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+// Returns the determinant of the leading n rows and columns, by elimination with pivots.
+template <class T> T determinant(Matrix<T> j, std::size_t n) {
+  using std::abs;
+  T product(1);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (abs(j[i][k]) > abs(j[pivot][k])) pivot = i;
+    if (j[pivot][k] == T(0)) return T(0);
+    if (pivot != k) {
+      std::swap(j[pivot], j[k]);
+      product = -product;
+    }
+    product *= j[k][k];
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const T factor = j[i][k] / j[k][k];
+      for (std::size_t c = k; c < n; ++c) j[i][c] -= factor * j[k][c];
+    }
+  }
+  return product;
 }
 
 Check oracle_jacobian(const AnyDistribution& s, const LawOptions& options) {
@@ -40,7 +54,8 @@ Check oracle_jacobian(const AnyDistribution& s, const LawOptions& options) {
     const Oracle density = s.oracle->pdf(*x) * s.oracle->to_chart(*x).jacobian;
     const double off = std::abs(static_cast<double>(abs(determinant(j, n) * density) - 1));
     error.note(off, [&] {
-      const std::array<double, 3> c{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
+      PerAxis<double> c{};
+      for (std::size_t i = 0; i < n; ++i) c[i] = static_cast<double>(u[i]);
       return fmt::format("|det d sample / d u| pdf differs from 1 by {:.3g}, at u = {}", off,
                          format_numbers({c.data(), n}, 17));
     });

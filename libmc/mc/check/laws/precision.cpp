@@ -15,7 +15,9 @@ double off_by(const AnyDistribution& s, const OracleDistribution::Point& x, cons
 }
 
 std::string format_exact(const AnyDistribution& s, const OracleDistribution::Point& x) {
-  return format_x(s, {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])});
+  PointArray rounded;
+  std::transform(x.begin(), x.end(), rounded.begin(), [](const Oracle& exact) { return static_cast<double>(exact); });
+  return format_x(s, rounded);
 }
 
 // Returns the change of the exact sample by rounding of u, which occurs in maps that remap u: mixtures, products.
@@ -23,8 +25,9 @@ double off_by_rounding(const AnyDistribution& s, const AnyDistribution::Uniforms
                        const OracleDistribution::Point& exact) {
   constexpr double steps = 4;
   double off = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    OracleDistribution::Point rounded{u[0], u[1], u[2]};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.uniforms); ++i) {
+    OracleDistribution::Point rounded;
+    std::copy(u.begin(), u.end(), rounded.begin());
     rounded[i] *= 1 - s.epsilon();
     if (const auto x = s.oracle->sample(rounded)) off += steps * off_by(s, *x, exact);
   }

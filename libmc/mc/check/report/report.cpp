@@ -235,10 +235,9 @@ std::string describe_range(const std::vector<Axis>& axes, std::size_t axis, doub
                      own.unit());
 }
 
-std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
-                          const std::array<double, 3>& hi) {
+std::string describe_cell(const std::vector<Axis>& axes, const PerAxis<double>& lo, const PerAxis<double>& hi) {
   std::string text;
-  for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), 3); ++d) {
+  for (std::size_t d = 0; d < std::min(axes.size(), max_chart_dim); ++d) {
     const Axis& axis = axes[d];
     const auto [least, largest] = std::minmax({axis.value(lo[d]), axis.value(hi[d])});
     text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, least, largest,

@@ -69,22 +69,22 @@ struct Check {
 
 /// A cell of the partition, or a discrete outcome, with a count far from the expected count.
 struct WorstCell {
-  std::array<double, 3> lo{}, ///< lower corner in chart coordinates; 0 for an outcome
-      hi{};                   ///< upper corner in chart coordinates; 0 for an outcome
-  double observed = 0,        ///< observed number of samples
-      expected = 0,           ///< expected number of samples
-      z = 0;                  ///< (observed - expected) / sqrt(expected)
-  std::string where;          ///< the centre of the cell as a point of the domain, or "outcome 3"
+  PerAxis<double> lo{}, ///< lower corner in chart coordinates; 0 for an outcome
+      hi{};             ///< upper corner in chart coordinates; 0 for an outcome
+  double observed = 0,  ///< observed number of samples
+      expected = 0,     ///< expected number of samples
+      z = 0;            ///< (observed - expected) / sqrt(expected)
+  std::string where;    ///< the centre of the cell as a point of the domain, or "outcome 3"
   /// The fields, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) { a(lo, hi, observed, expected, z, where); }
 };
 
 /// Observed and expected number of samples in a cell.
 struct CellCount {
-  std::array<double, 3> lo{}, ///< lower corner in chart coordinates
-      hi{};                   ///< upper corner in chart coordinates
-  double observed = 0,        ///< observed number of samples
-      expected = 0;           ///< expected number of samples
+  PerAxis<double> lo{}, ///< lower corner in chart coordinates
+      hi{};             ///< upper corner in chart coordinates
+  double observed = 0,  ///< observed number of samples
+      expected = 0;     ///< expected number of samples
   /// The fields, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) { a(lo, hi, observed, expected); }
 };
@@ -110,8 +110,7 @@ struct PlotData {
 std::string describe_range(const std::vector<Axis>& axes, std::size_t axis, double lo, double hi);
 
 /// Returns a cell in coordinates of the domain, for example "theta 1.5 to 3 deg, phi 0 to 90 deg".
-std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
-                          const std::array<double, 3>& hi);
+std::string describe_cell(const std::vector<Axis>& axes, const PerAxis<double>& lo, const PerAxis<double>& hi);
 
 /// A measured quantity that is reported without a verdict of its own, for example the white furnace albedo.
 struct ReportedValue {

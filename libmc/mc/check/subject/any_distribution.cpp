@@ -213,6 +213,10 @@ void append_chart_samples(const AnyDistribution& s, const std::vector<AnyDistrib
 }
 
 void append_draws(const AnyDistribution& s, std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+  if (s.sample_stream_many) {
+    for (const auto& drawn : s.sample_stream_many(seed, n)) out.push_back(to_chart(s, drawn).draw);
+    return;
+  }
   if (!s.sample) {
     Pcg random(seed);
     for (std::size_t i = 0; i < n; ++i) out.push_back(to_chart(s, s.sample_stream(random)).draw);
@@ -234,7 +238,7 @@ std::vector<Subject::Coordinates> inverted_draws(const AnyDistribution& s, std::
   std::vector<Subject::Coordinates> inverted;
   inverted.reserve(n);
   const auto add = [&](const std::optional<AnyDistribution::Uniforms>& u) {
-    inverted.push_back(u ? Subject::Coordinates{(*u)[0], (*u)[1], (*u)[2]} : Subject::Coordinates{nan, nan, nan});
+    inverted.push_back(u ? *u : Subject::Coordinates{nan, nan, nan, nan, nan, nan});
   };
   std::vector<PointArray> points;
   in_batches(s, seed, n, [&](const std::vector<AnyDistribution::Uniforms>& u) {

@@ -55,7 +55,7 @@ struct AnyDomain {
 /// The same distribution over 50 digits.
 struct OracleDistribution {
   /// A point of the domain or of the unit cube.
-  using Point = std::array<Oracle, 3>;
+  using Point = PerAxis<Oracle>;
   /// A point of the chart with the Jacobian there.
   struct ChartPoint {
     Point v;         ///< chart coordinates
@@ -96,14 +96,14 @@ struct AnyDistribution {
     Stated stated;     ///< reported when `weight` differs from 1
   };
 
-  std::string name;                          ///< name in the report
-  AnyDomain domain;                          ///< the domain of the points
-  bool is_float = false;                     ///< u and x are floats
-  bool may_fail = false;                     ///< sample may fail, with probability 1 - mass
-  bool open_interval = false;                ///< sample requires u in (0,1), without 0
-  bool states_weight = false;                ///< a sample states weight, pdf or f, which Sample::weight compares
-  std::vector<double> atoms;                 ///< claimed probabilities of the discrete outcomes
-  std::array<std::vector<double>, 3> breaks; ///< positions of jumps, see Subject
+  std::string name;                    ///< name in the report
+  AnyDomain domain;                    ///< the domain of the points
+  bool is_float = false;               ///< u and x are floats
+  bool may_fail = false;               ///< sample may fail, with probability 1 - mass
+  bool open_interval = false;          ///< sample requires u in (0,1), without 0
+  bool states_weight = false;          ///< a sample states weight, pdf or f, which Sample::weight compares
+  std::vector<double> atoms;           ///< claimed probabilities of the discrete outcomes
+  PerAxis<std::vector<double>> breaks; ///< positions of jumps, see Subject
 
   int uniforms = 0; ///< dimension of u
   /// Returns the sample of u in [0,1)^uniforms; no value if the sample fails. Either `sample` or `sample_stream` is
@@ -114,6 +114,9 @@ struct AnyDistribution {
   std::function<std::vector<std::optional<Sample>>(std::span<const Uniforms> u)> sample_many;
   /// Returns the next sample of a stream, for distributions that use a varying number of random numbers.
   std::function<std::optional<Sample>(Pcg& random)> sample_stream;
+  /// Returns n samples of the stream Pcg(seed), each with its pdf. For distributions that are much faster in batches;
+  /// requires `sample_stream` and gives the same results.
+  std::function<std::vector<std::optional<Sample>>(std::uint64_t seed, std::size_t n)> sample_stream_many;
   /// Computes the draws of several u with their chart coordinates, as to_chart(sample(u)) does, but without one
   /// std::function call per step. Used only while `sample` and `pdf` are the functions that it was created with.
   std::function<void(std::span<const Uniforms> u, std::span<Subject::Draw> draws)> draw_many;

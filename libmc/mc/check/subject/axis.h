@@ -2,6 +2,7 @@
 /// Meaning of chart coordinates, for reports and maps.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -9,6 +10,13 @@
 #include <vector>
 
 namespace mc {
+
+/// Largest dimension of a chart.
+inline constexpr std::size_t max_chart_dim = 6;
+/// One value for each chart coordinate; the entries beyond the dimension are unused.
+template <class T> using PerAxis = std::array<T, max_chart_dim>;
+/// The corner of the unit cube with the largest coordinates.
+inline constexpr PerAxis<double> unit_corner = {1, 1, 1, 1, 1, 1};
 
 /// A chart coordinate v in [0,1] and the quantity of the domain that it represents, a monotone function of v alone:
 ///   linear      : a (1 - v) + b v.

@@ -13,6 +13,7 @@
 #include <mc/domain/rotated.h>
 #include <mc/domain/sphere.h>
 #include <mc/domain/triangle.h>
+#include <mc/domain/unit_quaternions.h>
 
 #include <fmt/format.h>
 
@@ -60,6 +61,11 @@ template <Real S> std::vector<Axis> chart_axes(const Ball<S>&) {
   return axes;
 }
 template <Real S> std::vector<Axis> chart_axes(const Cap<S>& d) { return polar_axes(static_cast<double>(d.h)); }
+template <Real S> std::vector<Axis> chart_axes(const UnitQuaternions<S>&) {
+  return {{"z^2 + w^2", Axis::Scale::linear, 0, 1},
+          {"azimuth of (w, z)", Axis::Scale::linear, 0, 180},
+          {"azimuth of (y, x)", Axis::Scale::azimuth, 0, 1}};
+}
 template <Domain D> std::vector<Axis> chart_axes(const RotatedDomain<D>& d) { return chart_axes(d.inner); }
 template <Real S, int N> std::vector<Axis> chart_axes(const Box<S, N>& d) {
   std::vector<Axis> axes;

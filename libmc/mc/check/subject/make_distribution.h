@@ -113,7 +113,7 @@ template <Domain Chart> [[gnu::cold]] AnyDomain domain_of(const Chart& chart) {
   d.axes = chart_axes(chart);
   const auto shared = std::make_shared<const Chart>(chart);
   set_shared(d.to_unit, shared, [](const Chart& c, const PointArray& x) {
-    return to_array<double, 3>(UnitPoint(c.to_unit(to_point<Point>(x))));
+    return to_array<double, max_chart_dim>(UnitPoint(c.to_unit(to_point<Point>(x))));
   });
   set_shared(d.from_unit, shared, [](const Chart& c, const AnyDomain::Coordinates& v) {
     const auto p = to_point<UnitPoint>(v);
@@ -152,13 +152,13 @@ template <ContinuousDistribution O> [[gnu::cold]] OracleDistribution oracle_dist
              [](const Held& o, const OracleDistribution::Point& u) -> std::optional<OracleDistribution::Point> {
                const auto drawn = o.warp.sample(to_point<UnitPoint>(u));
                if (is_empty(drawn)) return {};
-               return to_array<Oracle, 3>(Point(unwrapped(drawn)));
+               return to_array<Oracle, max_chart_dim>(Point(unwrapped(drawn)));
              });
   set_shared(e.pdf, oracle,
              [](const Held& o, const OracleDistribution::Point& x) { return Oracle(o.warp.pdf(to_point<Point>(x))); });
   set_shared(e.to_chart, oracle, [](const Held& o, const OracleDistribution::Point& x) {
     const UnitPoint v = o.domain.to_unit(to_point<Point>(x));
-    return OracleDistribution::ChartPoint{to_array<Oracle, 3>(v), Oracle(o.domain.jacobian(v))};
+    return OracleDistribution::ChartPoint{to_array<Oracle, max_chart_dim>(v), Oracle(o.domain.jacobian(v))};
   });
   return e;
 }
@@ -254,7 +254,7 @@ template <Domain D, class Draw, class Pdf, class F> struct DistributionFunctions
     }
     const typename Chart::UnitPoint v = chart.to_unit(to_point<typename Chart::Point>(to_array<double>(x)));
     const auto density = static_cast<double>(static_cast<typename D::Scalar>(pdf(x)));
-    d.v = to_array<double, 3>(v);
+    d.v = to_array<double, max_chart_dim>(v);
     d.density = density * chart.jacobian(v);
     d.pdf_positive = density > 0 && std::isfinite(density);
     return d;
@@ -319,11 +319,10 @@ template <ContinuousDistribution W> [[gnu::cold]] AnyDistribution make_distribut
       [shared](const UnitPointOf<W>& u) { return shared->sample(u); },
       [shared](const PointOf<W>& x) { return shared->pdf(x); });
   if constexpr (Invertible<W>)
-    detail::set_shared(
-        s.invert, shared, [](const W& w, const PointArray& x) -> std::optional<AnyDistribution::Uniforms> {
-          const auto u = detail::to_array<double>(UnitPointOf<W>(w.invert(detail::to_point<PointOf<W>>(x))));
-          return AnyDistribution::Uniforms{u[0], u[1], u[2]};
-        });
+    detail::set_shared(s.invert, shared,
+                       [](const W& w, const PointArray& x) -> std::optional<AnyDistribution::Uniforms> {
+                         return detail::to_array<double>(UnitPointOf<W>(w.invert(detail::to_point<PointOf<W>>(x))));
+                       });
   if constexpr (requires { warp.breaks(); }) {
     std::size_t axis = 0;
     for (std::vector<double>& places : warp.breaks()) s.breaks[axis++] = std::move(places);

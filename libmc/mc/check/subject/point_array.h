@@ -11,9 +11,8 @@
 
 namespace mc {
 
-/// The coordinates of a point; unused entries are 0. Doubles represent floats exactly. Four entries hold a direction
-/// and a number.
-using PointArray = std::array<double, 4>;
+/// The coordinates of a point; unused entries are 0. Doubles represent floats exactly.
+using PointArray = std::array<double, 6>;
 
 /// Returns "0.25" or "(0.25, 0.5)", each number with the given number of digits.
 inline std::string format_numbers(std::span<const double> numbers, int digits) {

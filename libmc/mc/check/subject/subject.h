@@ -17,7 +17,7 @@ namespace mc {
 /// the domain. Warps, pairs of functions, BSDFs, tables, plugins and files of samples are all converted to Subjects;
 /// see make_subject.h.
 struct Subject {
-  using Coordinates = std::array<double, 3>; ///< A point of the unit cube; unused entries are 0.
+  using Coordinates = PerAxis<double>; ///< A point of the unit cube; unused entries are 0.
 
   std::string name;       ///< name in the report
   int dim = 0;            ///< dimension of the chart; 0: only discrete outcomes
@@ -55,7 +55,7 @@ struct Subject {
 
   /// Chart coordinates, ascending, where the density may jump along each axis, as between the bins of a table.
   /// Quadrature between them needs few points, and is exact for a constant density. May be empty.
-  std::array<std::vector<double>, 3> breaks;
+  PerAxis<std::vector<double>> breaks;
 
   /// Claimed probabilities of the discrete outcomes; empty for a continuous subject.
   std::vector<double> atoms;

@@ -73,7 +73,7 @@ class Integrator {
   void evaluate(Region& r) {
     const Rule& rule = r.rough && dim_ == 3 ? coarse() : fine();
     const int n = rule.nodes;
-    std::array<double, 3> width{1, 1, 1};
+    PerAxis<double> width{1, 1, 1};
     double volume = 1;
     for (int d = 0; d < dim_; ++d) {
       width[ix(d)] = r.box.hi[ix(d)] - r.box.lo[ix(d)];
@@ -81,7 +81,7 @@ class Integrator {
     }
     const std::array<int, 3> count{n, dim_ > 1 ? n : 1, dim_ > 2 ? n : 1};
     points_.clear();
-    std::array<double, 3> v{};
+    PerAxis<double> v{};
     for (int k = 0; k < count[2]; ++k)
       for (int j = 0; j < count[1]; ++j)
         for (int i = 0; i < count[0]; ++i) {
@@ -169,7 +169,7 @@ class Integrator {
   bool spent(const CubatureGoal& goal) const { return invalid_point || evaluations >= goal.max_evaluations; }
 
   std::size_t evaluations = 0;
-  std::optional<std::array<double, 3>> invalid_point;
+  std::optional<PerAxis<double>> invalid_point;
 
  private:
   static std::size_t ix(int i) { return static_cast<std::size_t>(i); }
@@ -188,15 +188,15 @@ class Integrator {
   }
   const BatchFunction& f_;
   int dim_;
-  std::vector<std::array<double, 3>> points_;
+  std::vector<PerAxis<double>> points_;
   std::vector<double> values_;
 };
 
 } // namespace
 
-CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
+CubatureResult integrate_boxes(const std::function<double(const PerAxis<double>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal) {
-  const BatchFunction many = [&f](std::span<std::array<double, 3>> v, std::span<double> values) {
+  const BatchFunction many = [&f](std::span<PerAxis<double>> v, std::span<double> values) {
     std::transform(v.begin(), v.end(), values.begin(), f);
   };
   return integrate_boxes(many, dim, boxes, goal);
@@ -204,7 +204,7 @@ CubatureResult integrate_boxes(const std::function<double(const std::array<doubl
 
 CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal) {
-  require(dim >= 1 && dim <= 3, "integrate_boxes: dim {} must lie in 1..3", dim);
+  require(dim >= 1 && dim <= max_cubature_dim, "integrate_boxes: dim {} must lie in 1..{}", dim, max_cubature_dim);
   Integrator integrator(f, dim);
   CubatureResult result;
   result.boxes.resize(boxes.size());

@@ -21,7 +21,7 @@ struct CubatureResult {
   std::size_t evaluations = 0;
   bool converged = true; ///< every box and the total reached their goals within the budget
   /// The first point where f is negative or not finite; refinement stops there.
-  std::optional<std::array<double, 3>> invalid_point;
+  std::optional<PerAxis<double>> invalid_point;
 };
 
 /// Required accuracy and budget.
@@ -31,7 +31,10 @@ struct CubatureGoal {
   std::size_t max_evaluations = 4'000'000;
 };
 
-/// Returns the integrals of a non-negative f over boxes of the unit cube of dimension 1, 2 or 3.
+/// Largest dimension of a cubature: the points of a tensor rule grow exponentially with it.
+inline constexpr int max_cubature_dim = 3;
+
+/// Returns the integrals of a non-negative f over boxes of the unit cube, of dimension at most max_cubature_dim.
 ///   rule   : tensor Clenshaw-Curtis of 9 points per axis; 5 in three dimensions if f is not smooth. Boxes are halved
 ///            across the axis with the largest difference between nested rules. The rule samples the faces of the box,
 ///            so a discontinuity cannot hide between the outermost nodes and the face.
@@ -40,10 +43,10 @@ struct CubatureGoal {
 ///            all nodes. Cut the boxes where mass is expected; check_subject uses its pilot for this. Tests check the
 ///            bound for smooth, singular, discontinuous and piecewise constant f, and for random products.
 ///   Source : [ClenshawCurtis60]; global adaptivity as in [GenzMalik80].
-CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
+CubatureResult integrate_boxes(const std::function<double(const PerAxis<double>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal = {});
 /// A function that is evaluated at many points at once. It may move the points.
-using BatchFunction = std::function<void(std::span<std::array<double, 3>> v, std::span<double> values)>;
+using BatchFunction = std::function<void(std::span<PerAxis<double>> v, std::span<double> values)>;
 CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal = {});
 

@@ -76,20 +76,28 @@ void cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size
 
 } // namespace
 
-void AntitheticPoints::add(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks,
+void AntitheticPoints::add(const UnitBox& whole, int dim, const PerAxis<std::vector<double>>& breaks,
                            std::size_t per_axis, Pcg& random) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
     cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis, ends[d]);
-  for (std::size_t i = 0; i + 1 < ends[0].size(); ++i)
-    for (std::size_t j = 0; j + 1 < ends[1].size(); ++j)
-      for (std::size_t k = 0; k + 1 < ends[2].size(); ++k) {
-        const UnitBox box{{ends[0][i], ends[1][j], ends[2][k]}, {ends[0][i + 1], ends[1][j + 1], ends[2][k + 1]}};
-        volumes.push_back(volume(box, dim));
-        for (int pair = 0; pair < 2; ++pair) {
-          points.push_back(random_point(box, dim, random));
-          points.push_back(mirrored(points.back(), box, dim));
-        }
-      }
+  const auto last = static_cast<std::size_t>(dim) - 1;
+  PerAxis<std::size_t> part{}; // along each axis
+  for (std::size_t d = 0;;) {
+    UnitBox box;
+    for (std::size_t axis = 0; axis <= last; ++axis) {
+      box.lo[axis] = ends[axis][part[axis]];
+      box.hi[axis] = ends[axis][part[axis] + 1];
+    }
+    volumes.push_back(volume(box, dim));
+    for (int pair = 0; pair < 2; ++pair) {
+      points.push_back(random_point(box, dim, random));
+      points.push_back(mirrored(points.back(), box, dim));
+    }
+    for (d = last; ++part[d] + 1 == ends[d].size(); --d) {
+      part[d] = 0;
+      if (d == 0) return;
+    }
+  }
 }
 
 BoxMaxima add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass) {
@@ -111,26 +119,30 @@ BoxMaxima add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pc
 
 void LinearFit::add(const Subject::Coordinates& v, double density, double part) {
   const double size = 4 * part; // volume of the box
-  const Difference point{size * v[0], size * v[1], size * v[2], size * density};
+  Difference point{};
+  for (std::size_t i = 0; i < dim_; ++i) point[i] = size * v[i];
+  point[dim_] = size * density;
   half_ = !half_;
   if (half_) return differences_.push_back(point);
   Difference& d = differences_.back();
-  for (std::size_t i = 0; i < 4; ++i) d[i] -= point[i];
+  for (std::size_t i = 0; i <= dim_; ++i) d[i] -= point[i];
   for (std::size_t i = 0; i < dim_; ++i)
-    for (std::size_t j = 0; j < 4; ++j) products_[i][j] += d[i] * d[j];
+    for (std::size_t j = 0; j <= dim_; ++j) products_[i][j] += d[i] * d[j];
 }
 
 double LinearFit::largest_residual() {
   // Gauss-Seidel iteration, which also converges for a singular matrix.
-  std::array<double, 3> slope{};
+  PerAxis<double> slope{};
+  const auto residual = [&](const Difference& d) {
+    double r = d[dim_];
+    for (std::size_t i = 0; i < dim_; ++i) r -= slope[i] * d[i];
+    return r;
+  };
   for (int sweep = 0; sweep < 16; ++sweep)
-    for (std::size_t i = 0; i < dim_; ++i) {
-      const Difference& p = products_[i];
-      if (p[i] > 0) slope[i] += (p[3] - slope[0] * p[0] - slope[1] * p[1] - slope[2] * p[2]) / p[i];
-    }
+    for (std::size_t i = 0; i < dim_; ++i)
+      if (products_[i][i] > 0) slope[i] += residual(products_[i]) / products_[i][i];
   double largest = 0;
-  for (const Difference& d : differences_)
-    largest = std::max(largest, std::abs(d[3] - slope[0] * d[0] - slope[1] * d[1] - slope[2] * d[2]));
+  for (const Difference& d : differences_) largest = std::max(largest, std::abs(residual(d)));
   differences_.clear();
   products_ = {};
   return largest;

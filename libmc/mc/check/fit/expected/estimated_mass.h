@@ -53,11 +53,10 @@ struct AntitheticPoints {
   std::vector<Subject::Coordinates> points; ///< four per part, in the order of EstimatedMass::add_part
   std::vector<double> volumes;              ///< volumes of the parts
   /// Ends of the parts along each axis of the last box.
-  std::array<std::vector<double>, 3> ends{{{0, 1}, {0, 1}, {0, 1}}};
+  PerAxis<std::vector<double>> ends;
   /// Cuts the box at the breaks inside, and evenly between them into at least `per_axis` parts along each axis. Adds
   /// the points of all parts.
-  void add(const UnitBox& box, int dim, const std::array<std::vector<double>, 3>& breaks, std::size_t per_axis,
-           Pcg& random);
+  void add(const UnitBox& box, int dim, const PerAxis<std::vector<double>>& breaks, std::size_t per_axis, Pcg& random);
 };
 
 /// Largest density at the points of a box, and largest volume that one point represents.
@@ -81,12 +80,13 @@ class LinearFit {
   double largest_residual();
 
  private:
-  using Difference = std::array<double, 4>; ///< difference of mirrored points along the axes, then of their densities
+  /// Difference of mirrored points along the axes, then of their densities.
+  using Difference = std::array<double, max_chart_dim + 1>;
 
   std::size_t dim_;
-  bool half_ = false;                    ///< whether a point waits for its mirror image
-  std::vector<Difference> differences_;  ///< scaled with the volume of their box
-  std::array<Difference, 3> products_{}; ///< sums of products of the component along an axis with all components
+  bool half_ = false;                   ///< whether a point waits for its mirror image
+  std::vector<Difference> differences_; ///< scaled with the volume of their box
+  PerAxis<Difference> products_{};      ///< sums of products of the component along an axis with all components
 };
 
 } // namespace mc

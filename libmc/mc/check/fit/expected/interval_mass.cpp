@@ -11,9 +11,9 @@ namespace mc {
 namespace {
 
 constexpr std::size_t points_of_box = 4, most_near = 1024, most_pieces = 2048;
-constexpr double over_samples = 4, over_seen = 4;                    // densities that indicate missed mass
-constexpr int most_halvings = 64;                                    // number of successive halvings
-constexpr std::array<double, 3> boxes_per_interval{512, 1024, 2048}; // in one, two and three dimensions
+constexpr double over_samples = 4, over_seen = 4; // densities that indicate missed mass
+constexpr int most_halvings = 64;                 // number of successive halvings
+constexpr double boxes_per_axis = 512;            // in an interval, for each dimension up to the fourth
 
 struct NearPoint {
   Subject::Coordinates v; // clamped to the layer
@@ -56,7 +56,7 @@ struct Cutter {
   std::vector<Piece> pieces{};
 
   void cut(const UnitBox& box, const UnitBox& ranks, NearPoints points, int halvings) {
-    std::array<std::size_t, 3> axes{0, 1, 2};
+    PerAxis<std::size_t> axes{0, 1, 2, 3, 4, 5};
     const auto width = [&](std::size_t axis) { return ranks.hi[axis] - ranks.lo[axis]; };
     std::stable_sort(axes.begin(), axes.begin() + subject.dim,
                      [&](std::size_t a, std::size_t b) { return width(a) > width(b); });
@@ -116,7 +116,7 @@ EstimatedMass interval_mass(const Subject& s, const Pilot& pilot, const Interval
   cutter.cut(whole, ranks, points, 0);
 
   const double less = effort == Effort::full ? 1 : 16;
-  const double boxes = boxes_per_interval[static_cast<std::size_t>(s.dim - 1)] / less;
+  const double boxes = boxes_per_axis * std::ldexp(1.0, std::min(s.dim, 4) - 1) / less;
   const double per_axis = std::max(1.0, std::pow(boxes / static_cast<double>(cutter.pieces.size()), 1.0 / s.dim));
   Pcg random(seed);
   EstimatedMass mass;

@@ -51,13 +51,19 @@ std::vector<UnitBox> cut_boxes(const std::vector<UnitBox>& boxes, std::size_t ax
   return finer;
 }
 
+PerAxis<double> filled(double x) {
+  PerAxis<double> all;
+  all.fill(x);
+  return all;
+}
+
 // Returns the smallest box around the pilot's points in each aligned run of 2^level cells.
 std::vector<UnitBox> extents(const PilotCells& cells, const Pilot& pilot, int level) {
   std::vector<UnitBox> extent(static_cast<std::size_t>(cells.partition.size() >> level),
-                              UnitBox{{2, 2, 2}, {-1, -1, -1}});
+                              UnitBox{filled(2), filled(-1)});
   for (std::size_t i = 0; i < pilot.points.size(); ++i) {
     UnitBox& e = extent[cells.cell_of_point[i] >> level];
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < max_chart_dim; ++d) {
       e.lo[d] = std::min(e.lo[d], pilot.points[i][d]);
       e.hi[d] = std::max(e.hi[d], pilot.points[i][d]);
     }
@@ -88,6 +94,9 @@ std::string near_one(double x) {
 
 CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const PilotCells& cells, double n,
                                  std::size_t max_evaluations) {
+  CubatureResult unknown;
+  unknown.total.error = HUGE_VAL;
+  if (s.dim > max_cubature_dim) return unknown;
   // Few boxes: the cubature halves them as needed.
   const int depth = std::min(cells.partition.depth(), 6);
   const std::vector<UnitBox> extent = extents(cells, pilot, cells.partition.depth() - depth);

@@ -8,7 +8,8 @@
 namespace mc {
 
 /// Returns the integral of the density by cubature, accurate to a hundredth of the standard deviation of a count of n
-/// if max_evaluations suffice. Boxes are cut finer if the pilot fills only a corner of them.
+/// if max_evaluations suffice. Boxes are cut finer if the pilot fills only a corner of them. In more than three
+/// dimensions there is no cubature: the error is infinite.
 CubatureResult integrate_density(const Subject& subject, const Pilot& pilot, const PilotCells& cells, double n,
                                  std::size_t max_evaluations);
 

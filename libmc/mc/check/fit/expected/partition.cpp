@@ -78,7 +78,7 @@ struct Partition::Builder {
 
 Partition::Partition(std::vector<Coordinates> pilot, int dim, int depth, const MaySplit& may_split)
     : dim_(dim), depth_(depth) {
-  require(dim >= 1 && dim <= 3, "Partition: dim {} must lie in 1..3", dim);
+  require(dim >= 1 && dim <= int(max_chart_dim), "Partition: dim {} must lie in 1..{}", dim, max_chart_dim);
   require(depth >= 0 && depth <= 24, "Partition: depth {} must lie in 0..24", depth);
   splits_.resize(static_cast<std::size_t>(size()));
   Builder{*this, may_split}.split(1, UnitBox{}, pilot, 0);

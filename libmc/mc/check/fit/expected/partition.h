@@ -1,6 +1,8 @@
 #pragma once
 /// Bins adapted to a density.
 
+#include <mc/check/subject/axis.h>
+
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -10,7 +12,7 @@ namespace mc {
 
 /// An axis-parallel box of the unit cube, half open: lo <= v < hi (closed for hi = 1).
 struct UnitBox {
-  std::array<double, 3> lo{0, 0, 0}, hi{1, 1, 1};
+  PerAxis<double> lo{}, hi = unit_corner;
 };
 
 /// A complete kd-tree over the unit cube. Its 2^depth cells contain about equal shares of a pilot sample, so a lobe of
@@ -20,7 +22,7 @@ struct UnitBox {
 /// aligned runs of 2^(depth - k) cells.
 class Partition {
  public:
-  using Coordinates = std::array<double, 3>;
+  using Coordinates = PerAxis<double>;
 
   /// Returns whether a box may be cut at a place on an axis; `beside` is a pilot point in the box.
   using MaySplit = std::function<bool(const UnitBox& box, std::size_t axis, double place, const Coordinates& beside)>;

@@ -141,7 +141,7 @@ struct StratifiedReference::Builder {
     reference.nodes_[node].index = static_cast<std::uint32_t>(reference.strata_.size());
     reference.boxes_.push_back(box);
     Subject::Coordinates middle{};
-    for (std::size_t d = 0; d < 3; ++d) middle[d] = 0.5 * (box.lo[d] + box.hi[d]);
+    for (std::size_t d = 0; d < max_chart_dim; ++d) middle[d] = 0.5 * (box.lo[d] + box.hi[d]);
     const bool narrow = is_rounded(box, points.empty() ? middle : points.front().v);
     reference.strata_.push_back({cell, reference.nodes_[node].index, cap, narrow ? 0.0 : density, 0});
   }
@@ -180,7 +180,8 @@ StratifiedReference::StratifiedReference(const Subject& s, const Pilot& pilot, c
   // About four bins per stratum.
   const double bits = std::log2(4 * static_cast<double>(strata_.size())) / dim_;
   guide_size_ = std::size_t{1} << static_cast<int>(bits);
-  Bin hi{1, 1, 1};
+  Bin hi;
+  hi.fill(1);
   std::size_t bins = 1;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d, bins *= guide_size_)
     hi[d] = static_cast<std::uint32_t>(guide_size_);
@@ -221,14 +222,18 @@ void StratifiedReference::fill_guide(std::size_t node, Bin lo, Bin hi) {
     lo[axis] = left[axis];
     hi[axis] = right[axis];
   }
-  for (std::size_t i = lo[0]; i < hi[0]; ++i)
-    for (std::size_t j = lo[1]; j < hi[1]; ++j)
-      for (std::size_t k = lo[2]; k < hi[2]; ++k) {
-        std::size_t index = i;
-        if (dim_ > 1) index = index * guide_size_ + j;
-        if (dim_ > 2) index = index * guide_size_ + k;
-        guide_[index] = static_cast<std::uint32_t>(node);
-      }
+  const auto dim = static_cast<std::size_t>(dim_);
+  for (std::size_t d = 0; d < dim; ++d)
+    if (lo[d] == hi[d]) return;
+  for (Bin at = lo;;) {
+    std::size_t index = 0, d = dim - 1;
+    for (std::size_t axis = 0; axis < dim; ++axis) index = index * guide_size_ + at[axis];
+    guide_[index] = static_cast<std::uint32_t>(node);
+    for (; ++at[d] == hi[d]; --d) {
+      at[d] = lo[d];
+      if (d == 0) return;
+    }
+  }
 }
 
 std::vector<const StratifiedReference::Stratum*>

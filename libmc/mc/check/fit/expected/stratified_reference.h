@@ -94,7 +94,7 @@ class StratifiedReference {
   };
   struct Builder;
   struct Integration;
-  using Bin = std::array<std::uint32_t, 3>;
+  using Bin = PerAxis<std::uint32_t>;
   void add_cells(const Partition& cells, int split, std::size_t node, const UnitBox& box, Builder& builder);
   void fill_guide(std::size_t node, Bin lo, Bin hi);
   std::size_t bin(const Subject::Coordinates& v) const {

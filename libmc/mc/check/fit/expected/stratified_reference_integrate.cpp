@@ -32,7 +32,7 @@ struct StratifiedReference::Integration {
   StratifiedReference& reference;
   const PointVisitor& visit;
   Pcg random;
-  std::array<std::vector<double>, 3> breaks{};
+  PerAxis<std::vector<double>> breaks{};
   std::size_t parts = 1; ///< number of parts of each stratum along an axis
   CellMasses result{};
   LinearFit fit{static_cast<std::size_t>(subject.dim)};

@@ -23,28 +23,29 @@ bool explains(double before, double after, double dof, double least_gain) {
 // axes.
 double face(const Subject& s, const UnitBox& box, std::size_t axis, double at) {
   static constexpr double node = 0.3872983346207417; // sqrt(3/5) / 2
-  double sum = 0, area = 1;
-  std::array<std::size_t, 2> others{};
-  std::size_t n = 0;
+  static constexpr std::array<double, 3> nodes{-node, 0, node}, weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  std::vector<std::size_t> others;
+  int points = 1;
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
     if (d != axis) {
-      area *= box.hi[d] - box.lo[d];
-      others[n++] = d;
+      others.push_back(d);
+      points *= 3;
     }
-  const auto value = [&](double a, double b) {
+  double sum = 0;
+  for (int point = 0; point < points; ++point) {
     Subject::Coordinates v{};
     v[axis] = std::min(at, 1 - 1e-12);
-    const std::array<double, 2> t{a, b};
-    for (std::size_t k = 0; k < n; ++k)
-      v[others[k]] = box.lo[others[k]] + (0.5 + t[k]) * (box.hi[others[k]] - box.lo[others[k]]);
-    return s.density(v);
-  };
-  for (const auto& [a, wa] : {std::pair{-node, 5.0}, {0.0, 8.0}, {node, 5.0}}) {
-    if (n < 2) sum += wa * value(a, 0) / 18;
-    else
-      for (const auto& [b, wb] : {std::pair{-node, 5.0}, {0.0, 8.0}, {node, 5.0}}) sum += wa * wb * value(a, b) / 324;
+    double weight = 1;
+    int rest = point;
+    for (const std::size_t d : others) {
+      const auto k = static_cast<std::size_t>(rest % 3);
+      rest /= 3;
+      v[d] = box.lo[d] + (0.5 + nodes[k]) * (box.hi[d] - box.lo[d]);
+      weight *= weights[k] * (box.hi[d] - box.lo[d]);
+    }
+    sum += weight * s.density(v);
   }
-  return area * sum;
+  return sum;
 }
 
 } // namespace

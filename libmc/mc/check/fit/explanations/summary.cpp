@@ -26,7 +26,7 @@ std::vector<WorstCell> worst_cells(const Subject& s, const std::vector<UnitBox>&
       w.lo = boxes[*i].lo;
       w.hi = boxes[*i].hi;
       Subject::Coordinates centre;
-      for (std::size_t d = 0; d < 3; ++d) centre[d] = 0.5 * (w.lo[d] + w.hi[d]);
+      for (std::size_t d = 0; d < max_chart_dim; ++d) centre[d] = 0.5 * (w.lo[d] + w.hi[d]);
       if (s.describe_point) w.where = s.describe_point(centre);
     } else {
       w.where = fmt::format("outcome {}", *i - boxes.size());
@@ -68,7 +68,7 @@ struct PrefixSums {
 UnitBox enclosing_box(const std::vector<UnitBox>& boxes, std::size_t lo, std::size_t hi) {
   UnitBox all = boxes[lo];
   for (std::size_t i = lo; i < hi; ++i)
-    for (std::size_t d = 0; d < 3; ++d) {
+    for (std::size_t d = 0; d < max_chart_dim; ++d) {
       all.lo[d] = std::min(all.lo[d], boxes[i].lo[d]);
       all.hi[d] = std::max(all.hi[d], boxes[i].hi[d]);
     }
@@ -79,7 +79,7 @@ std::string describe_box(const Subject& s, const UnitBox& box) {
   std::string text = describe_cell(named_axes(s), box.lo, box.hi);
   if (!s.describe_point) return text;
   Subject::Coordinates centre;
-  for (std::size_t d = 0; d < 3; ++d) centre[d] = 0.5 * (box.lo[d] + box.hi[d]);
+  for (std::size_t d = 0; d < max_chart_dim; ++d) centre[d] = 0.5 * (box.lo[d] + box.hi[d]);
   return text + ", about " + s.describe_point(centre) + ",";
 }
 

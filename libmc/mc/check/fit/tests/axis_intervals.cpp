@@ -162,7 +162,7 @@ IntervalQuery query_around(const Pilot& pilot, const AxisInterval& interval) {
 } // namespace
 
 std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot,
-                                              const std::array<std::vector<double>, 3>& sorted) {
+                                              const PerAxis<std::vector<double>>& sorted) {
   std::vector<AxisInterval> intervals;
   const auto add = [&](AxisInterval interval) {
     interval.mass = interval_mass(s, pilot, query_around(pilot, interval), intervals.size() + 1);

@@ -32,7 +32,7 @@ struct AxisInterval {
 /// inside and the gaps at both ends, measured in spacings of the samples next to them. `sorted` contains the sorted
 /// coordinates of the samples for each axis.
 std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot,
-                                              const std::array<std::vector<double>, 3>& sorted);
+                                              const PerAxis<std::vector<double>>& sorted);
 
 /// Tests the intervals of one kind against their mass, one-sided: too many samples in an atom, none in a gap. An
 /// interval is one of n candidates, which the p-value takes into account; four standard deviations of the mass are

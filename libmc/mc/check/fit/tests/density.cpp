@@ -1,5 +1,6 @@
 #include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/tests/fit_test.h>
+#include <mc/check/subject/point_array.h>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ std::string describe_density(double density) {
 
 std::string describe_place(const Subject& s, const Subject::Coordinates& v) {
   if (s.describe_point) return "x = " + s.describe_point(v);
-  return fmt::format("chart coordinates ({:.17g}, {:.17g}, {:.17g})", v[0], v[1], v[2]);
+  return "chart coordinates " + format_numbers({v.data(), static_cast<std::size_t>(s.dim)}, 17);
 }
 
 } // namespace

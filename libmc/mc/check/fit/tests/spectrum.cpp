@@ -22,7 +22,7 @@ int periods(std::size_t k, std::size_t size) {
 
 struct Wave {
   double exponent = 0; ///< minus the logarithm of its p-value
-  std::array<int, 3> periods{};
+  PerAxis<int> periods{};
 };
 
 struct Band {
@@ -35,7 +35,7 @@ struct Spectrum {
   std::vector<Band> bands;
 
   // Adds the Fourier coefficient with k periods along the axes.
-  void add(const std::array<int, 3>& k, double power) {
+  void add(const PerAxis<int>& k, double power) {
     const int nyquist = static_cast<int>(size / 2);
     int most = 0;
     bool real = true;
@@ -74,8 +74,8 @@ std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::
 
 // Largest number of bins on an axis as a power of two, limited by memory.
 int most_bits(int dim) {
-  if (dim == 1) return 16;
-  return dim == 2 ? 10 : 6;
+  constexpr PerAxis<int> bits{16, 10, 6, 5, 4, 3};
+  return bits[static_cast<std::size_t>(dim - 1)];
 }
 
 } // namespace
@@ -110,7 +110,7 @@ std::vector<Check> SpectrumTest::test(const WeightedCounts& all, double share, d
   Spectrum spectrum{dim, size_, {}, std::vector<Band>(static_cast<std::size_t>(std::countr_zero(size_)))};
   const std::size_t half = size_ / 2 + 1;
   for (std::size_t row = 0; row < x.size() / half; ++row) {
-    std::array<int, 3> k{};
+    PerAxis<int> k{};
     std::size_t rest = row;
     for (std::size_t d = dim - 1; d-- > 0;) {
       k[d] = periods(rest % size_, size_);

@@ -14,8 +14,8 @@
 namespace mc {
 
 /// Counts observed and expected samples on a fine grid of the unit cube: 2^16 bins in one dimension, 1024^2 in two,
-/// 64^3 in three. Few samples or coarsely rounded coordinates reduce the number of bins, since a lattice of rounding
-/// steps is no fault.
+/// 64^3 in three, 32^4, 16^5 and 8^6 in more. Few samples or coarsely rounded coordinates reduce the number of bins,
+/// since a lattice of rounding steps is no fault.
 ///   step : mean width of the rounding steps of the coordinates.
 class SpectrumTest {
  public:

@@ -34,7 +34,7 @@ std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, 
   return c;
 }
 
-std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
+std::optional<Check> test_uniformity(const std::vector<Subject::Coordinates>& points, int dim, double error,
                                      double alpha, double share) {
   const double n = static_cast<double>(points.size()), root = std::sqrt(n);
   // The largest effect of the error on a statistic is 6 e sqrt(n) standard deviations.

@@ -21,7 +21,7 @@ std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, 
 ///   error  : bound on the error of the coordinates, conceded to the points. No Check if this leaves the tests without
 ///            power.
 ///   throws : Error if there are no points, or if one is not finite.
-std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
+std::optional<Check> test_uniformity(const std::vector<Subject::Coordinates>& points, int dim, double error,
                                      double alpha, double share);
 
 } // namespace mc

@@ -9,7 +9,7 @@
 
 namespace {
 
-using Point = std::array<double, 3>;
+using Point = mc::PerAxis<double>;
 
 struct Case {
   const char* name;

@@ -9,9 +9,9 @@
 
 namespace {
 
-std::vector<std::array<double, 3>> points(std::uint64_t seed, int n, double power = 1, double pull = 0) {
+std::vector<mc::Subject::Coordinates> points(std::uint64_t seed, int n, double power = 1, double pull = 0) {
   mc::Pcg random(seed);
-  std::vector<std::array<double, 3>> p;
+  std::vector<mc::Subject::Coordinates> p;
   for (int i = 0; i < n; ++i) {
     const double u = random.uniform<double>(), v = random.uniform<double>();
     p.push_back({std::pow(u, power), (1 - pull) * v + pull * u, 0});
