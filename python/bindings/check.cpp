@@ -198,7 +198,7 @@ std::string name_of(const py::handle& f) {
 mc::Report run_laws(Distribution d, const mc::LawOptions& laws) {
   d = mc::with_tolerances(std::move(d), laws);
   mc::LawOptions options = laws;
-  const std::function<void()> check_signals = [] {
+  const std::function<void(std::uint64_t)> check_signals = [](std::uint64_t) {
     const py::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   };

@@ -56,7 +56,7 @@ struct DetectionResult {
 // probability alpha.
 //   throws : Interrupted.
 DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, const std::atomic<bool>* cancel) {
-  const std::function<void()> stop = [cancel] {
+  const std::function<void(std::uint64_t)> stop = [cancel](std::uint64_t) {
     if (*cancel) throw Interrupted();
   };
   std::uint64_t seed = o.seed; // the same numbers for any selection of bugs

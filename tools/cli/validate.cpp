@@ -1,5 +1,6 @@
 #include <catalogue/catalogue.h>
 #include <catalogue/descriptions.h>
+#include <catalogue/looks.h>
 #include <cli/validate.h>
 #include <input/samples_file.h>
 #include <options/run_session.h>
@@ -24,10 +25,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -198,20 +201,23 @@ struct CheckedCases {
   std::vector<const Case*> cases;
   std::vector<mc::Report> reports;
   std::vector<UncheckedCase> unchecked;
+  std::vector<const Case*> incomplete = {}; ///< of `cases`: their reports are those of fewer samples
 };
 
-mc::Report check(const Case& one, const ValidateCommandOptions& o, double alpha, const std::atomic<bool>* cancel) {
+// Checks a case; calls before_draws with the number of samples that are drawn next.
+LookReport check(const Case& one, const ValidateCommandOptions& o, double alpha,
+                 const std::function<void(std::uint64_t)>& before_draws) {
   CaseOptions c;
   c.samples = o.samples;
   c.seed = seed_of(one, o);
   c.alpha = alpha;
   c.evidence = !o.report.empty();
   c.open_interval = o.open_interval;
-  const std::function<void()> stop = [cancel] {
-    if (*cancel) throw Interrupted();
-  };
-  c.before_draws = &stop;
-  return mc::with_context(one.title(), [&] { return one.check(c); });
+  c.before_draws = &before_draws;
+  return mc::with_context(one.title(), [&]() -> LookReport {
+    if (!o.samples_file.empty()) return {one.check(c)}; // a look would need rows of its own
+    return check_in_looks(one.check, c);
+  });
 }
 
 /// Checks all cases: each is a unit. Prints their lines in order, each as soon as possible.
@@ -219,9 +225,9 @@ class ValidateJob {
  public:
   /// The report of a case, or the error of a case that could not be checked.
   struct Result {
-    mc::Report report;
+    LookReport checked;
     std::string error;
-    template <class Archive> void archive(Archive& a) { a(report, error); }
+    template <class Archive> void archive(Archive& a) { a(checked.report, checked.is_complete, error); }
   };
 
   ValidateJob(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
@@ -236,7 +242,7 @@ class ValidateJob {
   std::optional<Result> compute(std::size_t i) const {
     Result result;
     try {
-      result.report = check(*cases_[i], options_, alpha_, cancel_);
+      result.checked = check(*cases_[i], options_, alpha_, [this](std::uint64_t draws) { count(draws); });
     } catch (const Interrupted&) {
       return {};
     } catch (const mc::Error& e) { // a crash of one case leaves the results of the others
@@ -247,8 +253,7 @@ class ValidateJob {
   void absorb(std::size_t i, Result result) {
     results_.emplace(i, std::move(result));
     print_lines();
-    progress_.show(static_cast<double>(results_.size()) / static_cast<double>(cases_.size()),
-                   fmt::format("{} of {} cases", results_.size(), cases_.size()));
+    show_progress(results_.size());
   }
   void skip(std::size_t) {}
   bool needs_results() const { return false; }
@@ -257,10 +262,11 @@ class ValidateJob {
 
   // Prints the lines that were not printed yet.
   void print_lines() {
+    const std::lock_guard lock(of_progress_);
     progress_.clear();
     for (auto one = results_.lower_bound(printed_); one != results_.end(); ++one) {
       const auto& [i, result] = *one;
-      if (result.error.empty()) fmt::print("{}", line_of(width_, *cases_[i], result.report));
+      if (result.error.empty()) fmt::print("{}", line_of(width_, *cases_[i], result.checked.report));
       else fmt::print("{:<{}} {:<7} {}\n", cases_[i]->label(), width_, cases_[i]->scalar, "error");
       printed_ = i + 1;
     }
@@ -275,12 +281,29 @@ class ValidateJob {
         continue;
       }
       all.cases.push_back(cases_[i]);
-      all.reports.push_back(result.report);
+      all.reports.push_back(result.checked.report);
+      if (!result.checked.is_complete) all.incomplete.push_back(cases_[i]);
     }
     return all;
   }
 
  private:
+  // Counts samples that are drawn next. Any thread calls it.
+  void count(std::uint64_t draws) const {
+    if (*cancel_) throw Interrupted();
+    drawn_ += draws;
+    show_progress(finished_);
+  }
+  void show_progress(std::size_t finished) const {
+    const std::lock_guard lock(of_progress_);
+    finished_ = finished;
+    const double cases = static_cast<double>(cases_.size()), samples = static_cast<double>(options_.samples);
+    const double drawn = static_cast<double>(drawn_) / (cases * samples * (1 + 1.0 / 8)); // with the pilot
+    progress_.show(
+        std::clamp(drawn, static_cast<double>(finished) / cases, 1.0),
+        fmt::format("{} of {} cases  {} samples", finished, cases_.size(), format_count(static_cast<double>(drawn_))));
+  }
+
   const std::vector<const Case*>& cases_;
   const ValidateCommandOptions& options_;
   double alpha_;
@@ -288,7 +311,10 @@ class ValidateJob {
   bool has_begun_ = false;
   std::map<std::size_t, Result> results_; ///< by the number of the case
   std::size_t width_ = 24, printed_ = 0;
-  ProgressLine progress_;
+  mutable std::mutex of_progress_;
+  mutable std::atomic<std::uint64_t> drawn_ = 0;
+  mutable std::atomic<std::size_t> finished_ = 0;
+  mutable ProgressLine progress_;
 };
 
 CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
@@ -322,7 +348,7 @@ mc::RunIdentity identity_of(ValidateCommandOptions o, const std::vector<const Ca
 }
 
 // The reports of cases that did not pass, then the number of cases that passed.
-void print_summary(const ValidationRun& run, std::size_t asked, bool verbose) {
+void print_summary(const ValidationRun& run, std::size_t asked, std::size_t incomplete, bool verbose) {
   constexpr std::string_view hint = "; --verbose shows them";
   std::size_t passed = 0, inconclusive = 0, warned = 0;
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
@@ -340,7 +366,7 @@ void print_summary(const ValidationRun& run, std::size_t asked, bool verbose) {
              inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), run.settings.alpha,
              run.settings.samples, run.settings.seed);
   if (!run.unchecked.empty()) fmt::print("{} of {} cases could not be checked\n", run.unchecked.size(), asked);
-  if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
+  if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size() - incomplete, asked);
 }
 
 // Files of the results, checked before the work.
@@ -362,9 +388,14 @@ int report(const ValidateCommandOptions& o, const std::vector<const Case*>& case
   const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                           finished.cases,
                           finished.reports,
-                          finished.cases.size() + finished.unchecked.size() < cases.size(),
+                          finished.cases.size() + finished.unchecked.size() < cases.size() ||
+                              !finished.incomplete.empty(),
                           finished.unchecked};
-  print_summary(run, cases.size(), o.verbose);
+  print_summary(run, cases.size(), finished.incomplete.size(), o.verbose);
+  for (std::size_t i = 0; i < finished.cases.size(); ++i)
+    if (std::ranges::find(finished.incomplete, finished.cases[i]) != finished.incomplete.end())
+      fmt::print("{}: {} of {} samples were checked\n", finished.cases[i]->title(), finished.reports[i].samples,
+                 o.samples);
   ResultWriter results;
   if (files.junit.is_wanted()) files.junit.write(results, run.interrupted, validation_junit(run));
   if (files.json.is_wanted()) files.json.write(results, run.interrupted, validation_json(run));

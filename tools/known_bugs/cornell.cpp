@@ -92,7 +92,7 @@ double toward_light_pdf(const V& p, const V& w) {
   return t * t / (std::abs(w.y()) * (light_x1 - light_x0) * (light_z1 - light_z0));
 }
 
-V doubled(Pcg& r) {
+V doubled_cosine(Pcg& r) {
   const double phi = 2 * pi * uniform(r), r2 = uniform(r);
   return V(std::cos(phi) * 2 * std::sqrt(r2), std::sin(phi) * 2 * std::sqrt(r2), std::sqrt(1 - r2)).normalized();
 }
@@ -187,9 +187,10 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
        hemisphere},
       {{"normal + point in the ball", "book, ch. 4", "P1: directions crowd the normal, out of the box's dark corners"},
        weightless<unit_in_ball>},
-      {{"doubled cosine lobe", "book, ch. 6", "P2: directions crowd the horizon"}, weightless<doubled>},
+      {{"doubled cosine lobe", "book, ch. 6", "P2: directions crowd the horizon"}, weightless<doubled_cosine>},
       {{"light only", "book, ch. 7", "P6: what the walls send each other is lost"}, light_only},
-      {{"doubled lobe and light, half each", "book, ch. 8", "P2, half hidden by the light samples"}, mixed<doubled>},
+      {{"doubled lobe and light, half each", "book, ch. 8", "P2, half hidden by the light samples"},
+       mixed<doubled_cosine>},
   };
   const double direct = light_in_view();
   std::vector<CornellBox> boxes;

@@ -61,7 +61,8 @@ mc::Check mean_check(const mc::Moments& moments, double value, double alpha) {
 
 // Calls the function of the options that may end a check, every 2^16 samples.
 void look_for_end(const CaseOptions& c, std::uint64_t sample) {
-  if (c.before_draws && sample % 65536 == 0) (*c.before_draws)();
+  constexpr std::uint64_t every = 65536;
+  if (c.before_draws && sample % every == 0) (*c.before_draws)(every);
 }
 
 mc::Report mean_report(double value, const SampleNumber& estimator, const CaseOptions& c) {

@@ -14,6 +14,8 @@
 ///   request : {"task": NAME, "who": prefix of errors, "limits": {...}, and further fields of the task}.
 ///   answer  : {"result": ...} or {"error": one line}.
 
+#include <terminal/interrupt.h>
+
 #include <plugin/run_isolated.h>
 
 #include <process/child.h>
@@ -36,9 +38,6 @@ struct WorkerOptions {
   std::string program = "/proc/self/exe";    ///< a carlo executable
   const std::atomic<bool>* cancel = nullptr; ///< when it becomes true, call_worker throws Interrupted
 };
-
-/// Thrown when WorkerOptions::cancel ended the work.
-struct Interrupted {};
 
 /// The result of the request, to which `limits` are added.
 ///   throws : Error with the worker's message, Interrupted.

@@ -5,6 +5,9 @@
 
 namespace carlo {
 
+/// Thrown where such a signal ends work.
+struct Interrupted {};
+
 /// During its lifetime, the signals that ask a program to end set a flag, so that its results are not lost:
 ///   SIGINT             : Ctrl-C. A second one ends the program immediately.
 ///   SIGTERM            : of timeout, kill and batch queues. A second one has no effect, since timeout sends two.

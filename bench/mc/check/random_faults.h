@@ -240,6 +240,25 @@ inline FaultySubject wrong_mass(Subject right, double size) {
           })};
 }
 
+/// Returns a fault of random kind. Its size is between a fifth and five times the detectable size, approximately.
+inline FaultySubject random_fault(const Subject& right, std::uint64_t seed, double samples) {
+  Pcg r(mc::hash(seed, 78));
+  const double sigma = std::sqrt(1 / samples), factor = log_uniform(r, 0.2, 5);
+  switch (random_index(r, 8)) {
+  case 0: return random_signs(right, r, std::min(0.9, 30 * factor * sigma), log_uniform(r, 16, samples / 1000));
+  case 1: {
+    const double share = log_uniform(r, 1000 / samples, 0.1);
+    return one_region(right, r, 12 * factor * sigma / std::sqrt(share), share);
+  }
+  case 2: return wave(right, r, std::min(0.9, 20 * factor * sigma));
+  case 3: return gap_or_clamp(right, r, 40 * factor / samples);
+  case 4: return lattice(right, r);
+  case 5: return spike(right, r, 120 * factor / samples);
+  case 6: return smooth(right, r, 10 * factor * sigma);
+  default: return wrong_mass(right, 12 * factor * sigma);
+  }
+}
+
 /// Returns a fault of the size that the report of the correct subject states, of random kind. The error covers patches
 /// with the probability of at least four of the checker's cells, or one such region. Half of the faults have the
 /// smallest such patches.

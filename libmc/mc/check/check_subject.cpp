@@ -175,7 +175,7 @@ Report check_subject(const Subject& given, const SubjectOptions& options) {
   if (options.before_draws) {
     Subject watched = given;
     watched.draw = [&](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& draws) {
-      (*options.before_draws)();
+      (*options.before_draws)(n);
       given.draw(stream, n, draws);
     };
     SubjectOptions others = options;

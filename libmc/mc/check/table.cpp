@@ -63,13 +63,14 @@ std::span<const LawRow<RoughnessFamily>> roughness_laws() { return roughness_row
 using StartTest = FitTest(const FitSetup& setup, double share);
 StartTest draws_law, density_law, resolution_law, mass_test, uniformity_test, inverted_spectrum_test, atoms_test,
     chi_square_test, single_cells_test, tails_test, ks_test_of_cells, correlation_test, gaps_test, marginal_bins_test,
-    density_ratio_test, spectrum_test, failures_test;
+    density_ratio_test, spectrum_test, grid_test, failures_test;
 
 namespace {
 
 bool any(const Subject&) { return true; }
 bool has_axes(const Subject& s) { return s.dim > 0; }
 bool has_pairs_of_axes(const Subject& s) { return s.dim > 1; }
+bool has_few_axes(const Subject& s) { return s.dim > 0 && s.dim <= 3; }
 bool has_inverse(const Subject& s) { return static_cast<bool>(s.inverted); }
 bool may_fail(const Subject& s) { return s.may_fail; }
 
@@ -82,15 +83,16 @@ constexpr FitTestRow fit_test_rows[] = {
     {"inverted samples", {0, 0.01, 0.01}, has_inverse, uniformity_test},
     {"Fourier", {0, 0.05, 0.05}, has_inverse, inverted_spectrum_test},
     {"atoms", {0, 0.03, 0.03}, has_axes, atoms_test},
-    {"chi-square", {0.61, 0.22, 0.22}, any, chi_square_test, true},
-    {"single cells", {0.30, 0.12, 0.12}, any, single_cells_test, true},
-    {"tails", {0, 0.28, 0.28}, has_axes, tails_test, true},
-    {"KS", {0, 0.17, 0.11}, has_axes, ks_test_of_cells, true},
-    {"correlation", {0, 0, 0.06}, has_pairs_of_axes, correlation_test, true},
+    {"chi-square", {0.61, 0.17, 0.17}, any, chi_square_test, true},
+    {"single cells", {0.30, 0.10, 0.10}, any, single_cells_test, true},
+    {"tails", {0, 0.19, 0.19}, has_axes, tails_test, true},
+    {"KS", {0, 0.13, 0.08}, has_axes, ks_test_of_cells, true},
+    {"correlation", {0, 0, 0.05}, has_pairs_of_axes, correlation_test, true},
     {"gaps", {0, 0.02, 0.02}, has_axes, gaps_test}, // after the tests of cells, which also find wide gaps
     {"marginal bins", {0, 0.03, 0.03}, has_axes, marginal_bins_test},
     {"density ratio", {0, 0.02, 0.02}, has_axes, density_ratio_test},
     {"Fourier", {0, 0.05, 0.05}, has_axes, spectrum_test},
+    {"grid", {0, 0.20, 0.20}, has_few_axes, grid_test},
     {"failure rate", {0.03, 0.03, 0.03}, may_fail, failures_test},
 };
 

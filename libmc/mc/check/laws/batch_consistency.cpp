@@ -9,7 +9,7 @@ namespace {
 
 using OptionalSample = std::optional<AnyDistribution::Sample>;
 
-constexpr std::size_t points = 257; // not a multiple of any vector width
+constexpr std::size_t batch = 257; // not a multiple of any vector width
 
 // Bound on differences by rounding: a plugin may compute in float, and vector code rounds differently from scalar code.
 constexpr double rounding = 1024 * static_cast<double>(std::numeric_limits<float>::epsilon());
@@ -28,7 +28,7 @@ double off(const OptionalSample& a, const OptionalSample& b) {
   return worst;
 }
 
-std::string describe(const AnyDistribution& s, const OptionalSample& drawn) {
+std::string describe_result(const AnyDistribution& s, const OptionalSample& drawn) {
   return drawn ? format_x(s, drawn->x) : "a failure";
 }
 
@@ -39,15 +39,15 @@ Findings batch_consistency_law(const AnyDistribution& s, const LawOptions& optio
   WorstError samples("batch consistency of sample", rounding, Fault::nondeterministic);
   WorstError densities("batch consistency of pdf", rounding, Fault::nondeterministic);
   Pcg random(options.statistics.seed, 16);
-  std::vector<AnyDistribution::Uniforms> u(points);
+  std::vector<AnyDistribution::Uniforms> u(batch);
   for (AnyDistribution::Uniforms& one : u) one = rounded_uniforms(s, random);
   const std::vector<OptionalSample> drawn = s.sample_many(u);
   std::vector<PointArray> x;
-  for (std::size_t i = 0; i < points; ++i) {
+  for (std::size_t i = 0; i < batch; ++i) {
     const OptionalSample alone = s.sample(u[i]);
     samples.note(off(drawn[i], alone), [&] {
       return fmt::format("sample is {} at position {} of a batch of {}, should be {} as for a single call, at u = {}",
-                         describe(s, drawn[i]), i + 1, points, describe(s, alone), format_u(s, u[i]));
+                         describe_result(s, drawn[i]), i + 1, batch, describe_result(s, alone), format_u(s, u[i]));
     });
     if (to_chart(s, alone).draw.kind == Subject::Draw::Kind::point) x.push_back(alone->x);
   }

@@ -11,7 +11,7 @@ namespace {
 using OptionalSample = std::optional<AnyDistribution::Sample>;
 using OptionalUniforms = std::optional<AnyDistribution::Uniforms>;
 
-constexpr int points = 256;
+constexpr int tried_points = 256;
 
 // Bitwise equality; NaN equals itself.
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -106,10 +106,10 @@ class ConstantOutput {
   Check check() const {
     // A constant point is a function of u; a point that repeats for a while is not.
     const Fault fault = 2 * alike_ > pairs_ ? Fault::atom : Fault::nondeterministic;
-    Check moves{"sample depends on u", Verdict::pass, {}, 0, double(pairs_), points / 2.0, fault, {}};
-    if (pairs_ <= points / 2) return moves;
+    Check moves{"sample depends on u", Verdict::pass, {}, 0, double(pairs_), tried_points / 2.0, fault, {}};
+    if (pairs_ <= tried_points / 2) return moves;
     moves.verdict = Verdict::fail;
-    moves.detail = fmt::format("{}; {} of {} pairs of u give one point", witness_, pairs_, points);
+    moves.detail = fmt::format("{}; {} of {} pairs of u give one point", witness_, pairs_, tried_points);
     return moves;
   }
 
@@ -125,7 +125,7 @@ Findings determinism_law(const AnyDistribution& s, const LawOptions& options) {
   RepeatedEvaluations repeated;
   ConstantOutput constant;
   Pcg random(options.statistics.seed, 15);
-  for (int k = 0; k < points; ++k) {
+  for (int k = 0; k < tried_points; ++k) {
     const Evaluation first = evaluate(s, random);
     Evaluation last = first;
     // Zero to three other samples detect results that alternate, or that change after a few calls.

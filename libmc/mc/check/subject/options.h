@@ -20,8 +20,8 @@ struct SubjectOptions {
   /// Accept faults of measure zero: sample may fail at single values of u, and pdf may be 0 or infinite on boundaries
   /// of the domain.
   bool open_interval = false;
-  /// Called before each batch of draws; an exception that it throws ends the check.
-  const std::function<void()>* before_draws = nullptr;
+  /// Called before each batch of draws, with their number; an exception that it throws ends the check.
+  const std::function<void(std::uint64_t draws)>* before_draws = nullptr;
 };
 
 } // namespace mc

@@ -15,6 +15,13 @@
 namespace mc {
 namespace {
 
+// Returns 3^digits.
+std::size_t power_of_3(int digits) {
+  std::size_t n = 1;
+  for (int i = 0; i < digits; ++i) n *= 3;
+  return n;
+}
+
 // Returns the number of periods along an axis; the upper half of the coefficients have negative frequencies.
 int periods(std::size_t k, std::size_t size) {
   return k <= size / 2 ? static_cast<int>(k) : static_cast<int>(k) - static_cast<int>(size);
@@ -30,26 +37,16 @@ struct Band {
 };
 
 struct Spectrum {
-  std::size_t dim, size;
+  std::size_t dim;
   Wave largest;
   std::vector<Band> bands;
 
   // Adds the Fourier coefficient with k periods along the axes.
   void add(const PerAxis<int>& k, double power) {
-    const int nyquist = static_cast<int>(size / 2);
     int most = 0;
-    bool real = true;
-    for (std::size_t d = 0; d < dim; ++d) {
-      most = std::max(most, std::abs(k[d]));
-      real = real && (k[d] == 0 || std::abs(k[d]) == nyquist);
-    }
+    for (std::size_t d = 0; d < dim; ++d) most = std::max(most, std::abs(k[d]));
     if (most == 0) return;
-    if (power > largest.exponent) {
-      // Coefficients that equal their own conjugate are real: chi-square with one degree of freedom.
-      const double exponent = real ? -std::log(std::max(std::erfc(std::sqrt(power / 2)), 1e-300)) : power;
-      if (exponent > largest.exponent) largest = {exponent, k};
-    }
-    if (most == nyquist) return;
+    if (power > largest.exponent) largest = {power, k};
     // For 0 periods along the last axis, the coefficients include their conjugates.
     const double each = k[dim - 1] == 0 ? 0.5 : 1.0;
     Band& band = bands[static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(most)) - 1)];
@@ -72,20 +69,21 @@ std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::
   return x;
 }
 
-// Largest number of bins on an axis as a power of two, limited by memory.
-int most_bits(int dim) {
-  constexpr PerAxis<int> bits{16, 10, 6, 5, 4, 3};
-  return bits[static_cast<std::size_t>(dim - 1)];
+// Largest number of bins on an axis as a power of 3, limited by memory.
+int most_digits(int dim) {
+  constexpr PerAxis<int> digits{10, 6, 4, 3, 2, 2};
+  return digits[static_cast<std::size_t>(dim - 1)];
 }
 
 } // namespace
 
 SpectrumTest::SpectrumTest(int dim, double samples, double step) : dim_(dim) {
-  int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most_bits(dim));
+  const double wanted = std::log(8 * std::max(samples, 1.0)) / std::log(3.0) / dim;
+  int digits = std::clamp(static_cast<int>(std::lround(wanted)), 2, most_digits(dim));
   // A lattice of steps is a wave of amplitude step / (pi w) in bins of width w: a third of the noise of the samples.
-  while (bits > 2 && std::ldexp(step, bits) * std::sqrt(samples) > 1) --bits;
-  size_ = std::size_t{1} << bits;
-  observed_.resize(std::size_t{1} << (bits * dim));
+  while (digits > 1 && step * static_cast<double>(power_of_3(digits)) * std::sqrt(samples) > 1) --digits;
+  size_ = power_of_3(digits);
+  observed_.resize(power_of_3(digits * dim));
   expected_.resize(observed_.size());
 }
 
@@ -107,7 +105,7 @@ std::vector<Check> SpectrumTest::test(const WeightedCounts& all, double share, d
   const double correlated = std::max(1.0, collisions / sqr(expected) * bins);
   const auto dim = static_cast<std::size_t>(dim_);
   const std::vector<std::complex<float>> x = transform(off, dim, size_);
-  Spectrum spectrum{dim, size_, {}, std::vector<Band>(static_cast<std::size_t>(std::countr_zero(size_)))};
+  Spectrum spectrum{dim, {}, std::vector<Band>(static_cast<std::size_t>(std::bit_width(size_ / 2)))};
   const std::size_t half = size_ / 2 + 1;
   for (std::size_t row = 0; row < x.size() / half; ++row) {
     PerAxis<int> k{};
@@ -172,34 +170,50 @@ namespace {
 // One number of each of several rows, which are transformed together.
 template <std::size_t L> struct Lanes { std::array<float, L> re, im; };
 
-template <std::size_t L> void butterfly(Lanes<L>& a, Lanes<L>& b, std::complex<float> w) {
+// Replaces (a, b, c) by the transform of (a, v b, w c).
+template <std::size_t L>
+void butterfly(Lanes<L>& a, Lanes<L>& b, Lanes<L>& c, std::complex<float> v, std::complex<float> w) {
+  constexpr float sine = 0.8660254037844386f; // of a third of a turn
   for (std::size_t l = 0; l < L; ++l) {
-    const float re = b.re[l] * w.real() - b.im[l] * w.imag(), im = b.re[l] * w.imag() + b.im[l] * w.real();
-    b.re[l] = a.re[l] - re;
-    b.im[l] = a.im[l] - im;
-    a.re[l] += re;
-    a.im[l] += im;
+    const float b_re = b.re[l] * v.real() - b.im[l] * v.imag(), b_im = b.re[l] * v.imag() + b.im[l] * v.real();
+    const float c_re = c.re[l] * w.real() - c.im[l] * w.imag(), c_im = c.re[l] * w.imag() + c.im[l] * w.real();
+    const float sum_re = b_re + c_re, sum_im = b_im + c_im;
+    const float off_re = sine * (b_re - c_re), off_im = sine * (b_im - c_im);
+    const float mean_re = a.re[l] - 0.5f * sum_re, mean_im = a.im[l] - 0.5f * sum_im;
+    a.re[l] += sum_re;
+    a.im[l] += sum_im;
+    b.re[l] = mean_re + off_im;
+    b.im[l] = mean_im - off_re;
+    c.re[l] = mean_re - off_im;
+    c.im[l] = mean_im + off_re;
   }
+}
+
+// Returns the number with the base-3 digits of i < n = 3^m in reverse.
+std::size_t reversed(std::size_t i, std::size_t n) {
+  std::size_t result = 0;
+  for (; n > 1; n /= 3, i /= 3) result = 3 * result + i % 3;
+  return result;
 }
 
 template <std::size_t L>
 void transform_lanes(std::complex<float>* x, std::size_t n, std::size_t stride, std::size_t distance,
                      const std::vector<std::complex<float>>& roots, std::vector<Lanes<L>>& row) {
-  const int bits = std::countr_zero(n);
   row.resize(n);
   // Gathers the numbers first: columns of a grid are far apart in memory.
   for (std::size_t i = 0; i < n; ++i) {
-    std::size_t reversed = 0;
-    for (int b = 0; b < bits; ++b) reversed |= (i >> b & 1) << (bits - 1 - b);
+    Lanes<L>& to = row[reversed(i, n)];
     for (std::size_t l = 0; l < L; ++l) {
-      row[reversed].re[l] = x[i * stride + l * distance].real();
-      row[reversed].im[l] = x[i * stride + l * distance].imag();
+      to.re[l] = x[i * stride + l * distance].real();
+      to.im[l] = x[i * stride + l * distance].imag();
     }
   }
-  for (std::size_t half = 1; half < n; half *= 2)
-    for (std::size_t first = 0; first < n; first += 2 * half)
-      for (std::size_t i = 0; i < half; ++i)
-        butterfly(row[first + i], row[first + half + i], roots[i * (n / 2 / half)]);
+  for (std::size_t third = 1; third < n; third *= 3)
+    for (std::size_t first = 0; first < n; first += 3 * third)
+      for (std::size_t i = 0; i < third; ++i) {
+        const std::size_t turn = i * (n / 3 / third);
+        butterfly(row[first + i], row[first + third + i], row[first + 2 * third + i], roots[turn], roots[2 * turn]);
+      }
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t l = 0; l < L; ++l) x[i * stride + l * distance] = {row[i].re[l], row[i].im[l]};
 }
@@ -209,7 +223,7 @@ void transform_lanes(std::complex<float>* x, std::size_t n, std::size_t stride, 
 void fourier_transform(std::complex<float>* x, std::size_t n, std::size_t stride, std::size_t count,
                        std::size_t distance) {
   std::vector<std::complex<float>> roots;
-  for (std::size_t i = 0; i < n / 2; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const double angle = -2 * pi<double> * static_cast<double>(i) / static_cast<double>(n);
     roots.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
   }

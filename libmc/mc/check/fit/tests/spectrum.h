@@ -13,9 +13,10 @@
 
 namespace mc {
 
-/// Counts observed and expected samples on a fine grid of the unit cube: 2^16 bins in one dimension, 1024^2 in two,
-/// 64^3 in three, 32^4, 16^5 and 8^6 in more. Few samples or coarsely rounded coordinates reduce the number of bins,
-/// since a lattice of rounding steps is no fault.
+/// Counts observed and expected samples on a fine grid of the unit cube: 3^10 bins in one dimension, 729^2 in two, 81^3
+/// in three, 27^4, 9^5 and 9^6 in more. Powers of 3, because random numbers are multiples of powers of 2 or 10: bins of
+/// such a width would each contain the same number of lattice points. Few samples or coarsely rounded coordinates
+/// reduce the number of bins, since a lattice of rounding steps is no fault.
 ///   step : mean width of the rounding steps of the coordinates.
 class SpectrumTest {
  public:
@@ -57,11 +58,11 @@ class SpectrumTest {
 /// counts at most `most`.
 double mean_step(const Subject& subject, const Pilot& pilot, double most);
 
-/// Returns the first n/2 + 1 coefficients of the discrete Fourier transform of each row of n = 2^m real numbers. The
-/// rows are contiguous.
+/// Returns the first (n + 1) / 2 coefficients of the discrete Fourier transform of each row of n = 3^m real numbers.
+/// The rows are contiguous.
 std::vector<std::complex<float>> fourier_transform(const std::vector<float>& x, std::size_t n);
 
-/// Replaces `count` rows of n = 2^m numbers by their discrete Fourier transforms, sum of x_j exp(-2 pi i j k / n). The
+/// Replaces `count` rows of n = 3^m numbers by their discrete Fourier transforms, sum of x_j exp(-2 pi i j k / n). The
 /// numbers of a row are `stride` apart, the rows `distance`.
 ///   error  : a few float epsilons of the root mean square, times log n.
 ///   Source : [CooleyTukey65].
