@@ -41,8 +41,10 @@ concept EigenArray = requires(T& x) {
   { T::SizeAtCompileTime } -> std::convertible_to<int>;
   x.data();
 };
-/// Whether the bytes of a value are its archive.
-template <class T> inline constexpr bool is_plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || EigenArray<T>;
+/// Whether the bytes of a value are its archive. A truth value is not: bytes other than 0 and 1 are none.
+template <class T>
+inline constexpr bool
+    is_plain = (std::is_arithmetic_v<T> && !std::same_as<T, bool>) || std::is_enum_v<T> || EigenArray<T>;
 
 template <class Archive, class T> void archive_value(Archive& a, T& x);
 
@@ -126,6 +128,11 @@ template <class Archive, class T> void archive_value(Archive& a, T& x) {
       static_assert(T::SizeAtCompileTime != Eigen::Dynamic, "Eigen arrays of variable size need their own function");
       a.bytes(x.data(), sizeof(typename T::Scalar) * static_cast<std::size_t>(T::SizeAtCompileTime));
     } else a.bytes(&x, sizeof x);
+  } else if constexpr (std::same_as<T, bool>) {
+    auto byte = static_cast<std::uint8_t>(x);
+    archive_value(a, byte);
+    require(byte <= 1, "archive: {} where a truth value is expected", byte);
+    x = byte == 1;
   } else if constexpr (requires { x.archive(a); }) x.archive(a);
   else archive(a, x);
 }

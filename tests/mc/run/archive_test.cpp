@@ -102,6 +102,15 @@ TEST(Archive, RefusesEveryCutAndWildSize) {
   EXPECT_THAT(support::error_of([&] { reader.require_end(); }), HasSubstr("1 bytes are left over"));
 }
 
+// The byte of a truth value is 0 or 1.
+TEST(Archive, WildTruthValue_IsRefused) {
+  bool value = false;
+  ArchiveReader right("\x01"), wrong("\x7f");
+  right(value);
+  EXPECT_TRUE(value);
+  EXPECT_THAT(support::error_of([&] { wrong(value); }), HasSubstr("127 where a truth value is expected"));
+}
+
 TEST(Archive, FixedSize_KeepsTheSize) {
   std::vector<double> sums{1, 2, 3}, two(2), three(3);
   ArchiveWriter writer;
