@@ -25,7 +25,8 @@ std::vector<Option> samples_rows(ValidateCommandOptions& o) {
        "\"r=0.5\", \"theta=0:90:15\" in degrees. A density that is constant between them is integrated "
        "exactly."},
       {"--log-density", "", &o.log_density,
-       "--pdf is the natural logarithm of the density, and so is the answer of --command to \"pdf\"."},
+       "The expression of --pdf is the natural logarithm of the density, and so is the answer of --command to "
+       "\"pdf\"."},
       {"--unnormalized", "", &o.unnormalized, "The density is known up to a factor only."},
       {"--thin", "auto|K", &o.thin,
        "The rows are states of a Markov chain: keep each K-th, or as many as are nearly independent by the "

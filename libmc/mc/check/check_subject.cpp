@@ -220,7 +220,7 @@ Report check_subject(const Subject& given, const SubjectOptions& options) {
 double check_memory(std::uint64_t samples) {
   const double n = static_cast<double>(samples);
   constexpr double most_tables = 36e6, tables_per_sample = 120; // of the spectrum, of the reference and of cells
-  constexpr double per_pilot_point = 85, per_kept_sample = 2 * sizeof(double); // each kept and sorted
+  constexpr double per_pilot_point = 117, per_kept_sample = 2 * sizeof(double); // each kept and sorted
   return std::min(most_tables, tables_per_sample * n) + per_pilot_point * static_cast<double>(pilot_samples(samples)) +
          per_kept_sample * std::min(n, static_cast<double>(most_kept));
 }

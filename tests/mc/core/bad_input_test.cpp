@@ -296,7 +296,7 @@ TEST(BadInput, Checkers) {
                     fit_power_law(std::array{RmsError{16, 1}, RmsError{16, 1}, RmsError{16, 1}}, 10);
                   },
                   {"fit_power_law:", "N = 16", "two different"}});
-  rows.push_back({[] { Partition({}, 0, 3); }, {"Partition:", "dim 0", "1..3"}});
+  rows.push_back({[] { Partition({}, 0, 3); }, {"Partition:", "dim 0", "1..6"}});
   rows.push_back({[] { ks_test({}, [](double x) { return x; }); }, {"ks_test:", "no samples"}});
   rows.push_back({[] {
                     ks_test({0.5, nan}, [](double x) { return x; });
