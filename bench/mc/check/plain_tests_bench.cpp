@@ -41,8 +41,8 @@ bool rejects_on_grid(const std::vector<Coordinates>& points, std::size_t k) {
 }
 
 bool rejects_by_ks(const std::vector<Coordinates>& points, std::size_t axis) {
-  std::vector<double> x;
-  for (const Coordinates& v : points) x.push_back(v[axis]);
+  std::vector<double> x(points.size());
+  std::ranges::transform(points, x.begin(), [axis](const Coordinates& v) { return v[axis]; });
   std::sort(x.begin(), x.end());
   const double n = static_cast<double>(x.size());
   double largest = 0;
@@ -57,8 +57,8 @@ std::array<bool, plain_tests + 1> rejections(const Subject& wrong, std::uint64_t
   rejected[0] = check_subject(wrong, {.samples = samples, .seed = seed, .alpha = alpha}).verdict() == mc::Verdict::fail;
   std::vector<Draw> draws;
   wrong.draw(mc::hash(seed, 5), samples, draws);
-  std::vector<Coordinates> points;
-  for (const Draw& d : draws) points.push_back(d.v);
+  std::vector<Coordinates> points(draws.size());
+  std::ranges::transform(draws, points.begin(), &Draw::v);
   for (std::size_t g = 0; g < grids.size(); ++g) rejected[1 + g] = rejects_on_grid(points, grids[g]);
   for (const std::size_t axis : {0, 1}) rejected[1 + grids.size() + axis] = rejects_by_ks(points, axis);
   return rejected;

@@ -9,8 +9,8 @@ namespace mc {
 
 /// A row of the table with its test in progress.
 struct RunningTest {
-  const FitTestRow* row;
-  FitTest test;
+  const FitTestRow* row; ///< the row
+  FitTest test;          ///< its test
 };
 
 /// Returns the share of alpha that a row spends on a subject. Rows with equal names that apply to the subject divide
@@ -22,8 +22,9 @@ std::vector<RunningTest> start_tests(const FitSetup& setup);
 
 /// Findings of all tests, and the errors that they state as detectable.
 struct JudgedTests {
-  std::vector<TestFindings> findings;
-  double detectable = 0, detectable_cell = 0; ///< as in Report
+  std::vector<TestFindings> findings; ///< one for each test
+  double detectable = 0,              ///< as in Report
+      detectable_cell = 0;            ///< as in Report
 };
 /// Judges every test, in the order of the table.
 JudgedTests judge_tests(const std::vector<RunningTest>& tests, const FitCounts& counts);

@@ -26,8 +26,9 @@ struct SceneFile {
   Vec3d origin = Vec3d::Zero();           ///< Point of the file that becomes the origin of the scene.
   std::vector<std::string> warnings = {}; ///< "scene.xml:14: ...": differences from the image of Mitsuba.
   std::set<std::string> files = {};       ///< All files read: the scene, included files, meshes, images.
-  /// Names of the scene's surfaces and lights for messages: "rectangle 'slab' (scene.xml:14)". Empty for meshes.
-  std::vector<std::string> surface_names = {}, light_names = {};
+  /// Names of the scene's surfaces for messages: "rectangle 'slab' (scene.xml:14)". Empty for meshes.
+  std::vector<std::string> surface_names = {};
+  std::vector<std::string> light_names = {}; ///< The same for its lights.
 };
 
 } // namespace render

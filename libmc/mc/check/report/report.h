@@ -126,8 +126,8 @@ struct ReportedValue {
 struct Findings {
   std::vector<Check> checks = {};          ///< one for each claim
   std::vector<ReportedValue> figures = {}; ///< quantities without a verdict
-  /// As in Report; 0 if the test states no such error.
-  double detectable = 0, detectable_cell = 0;
+  double detectable = 0,                   ///< as in Report; 0 if the test states no such error
+      detectable_cell = 0;                 ///< as in Report; 0 if the test states no such error
 };
 
 /// A law that was not tried, because the subject lacks what it needs.
