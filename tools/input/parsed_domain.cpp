@@ -53,14 +53,17 @@ Part part(std::string text, std::vector<std::string> columns, const D& d, Roundi
   return p;
 }
 
-// Printed directions are first normalised.
-template <mc::Domain D> Part directions(std::string text, const D& d, Rounding rounding, Contains near) {
-  Part p = part(std::move(text), {"x", "y", "z"}, d, rounding, std::move(near));
+// Unit vectors; printed ones are first normalised.
+template <mc::Domain D>
+Part unit_vectors(std::string text, std::vector<std::string> columns, const D& d, Rounding rounding, Contains near) {
+  const auto n = static_cast<int>(columns.size());
+  Part p = part(std::move(text), std::move(columns), d, rounding, std::move(near));
   if (rounding != Rounding::printed) return p;
   p.text += fmt::format(" (to {:g})", unit_tolerance);
-  p.chart.to_unit = [to_unit = p.chart.to_unit](const PointArray& x) {
-    const double length = norm(x, 3);
-    return to_unit({x[0] / length, x[1] / length, std::max(x[2], -1.0) / length});
+  p.chart.to_unit = [to_unit = p.chart.to_unit, n](PointArray x) {
+    const double length = norm(x, n);
+    for (double& one : x) one /= length;
+    return to_unit(x);
   };
   return p;
 }
@@ -103,24 +106,17 @@ Part annulus(std::string_view radius, Rounding rounding) {
               });
 }
 
-Part rotations(Rounding rounding) {
-  Part p = part("unit quaternions", {"x", "y", "z", "w"}, mc::UnitQuaternions<double>(), rounding,
-                [](const PointArray& q) { return std::abs(norm(q, 4) - 1) <= unit_tolerance; });
-  if (rounding != Rounding::printed) return p;
-  p.text += fmt::format(" (to {:g})", unit_tolerance);
-  p.chart.to_unit = [to_unit = p.chart.to_unit](const PointArray& q) {
-    const double length = norm(q, 4);
-    return to_unit({q[0] / length, q[1] / length, q[2] / length, q[3] / length});
-  };
-  return p;
-}
-
 Part named(const std::string& name, Rounding rounding) {
-  const auto is_unit = [](const PointArray& x) { return std::abs(norm(x, 3) - 1) <= unit_tolerance; };
-  if (name == "sphere") return directions("the unit sphere", mc::Sphere<double>(), rounding, is_unit);
+  const auto is_unit = [](int n) {
+    return [n](const PointArray& x) { return std::abs(norm(x, n) - 1) <= unit_tolerance; };
+  };
+  if (name == "sphere")
+    return unit_vectors("the unit sphere", {"x", "y", "z"}, mc::Sphere<double>(), rounding, is_unit(3));
   if (name == "hemisphere")
-    return directions("the unit hemisphere", mc::Hemisphere<double>(), rounding,
-                      [is_unit](const PointArray& x) { return is_unit(x) && x[2] >= -unit_tolerance; });
+    return unit_vectors("the unit hemisphere", {"x", "y", "z"}, mc::Hemisphere<double>(), rounding,
+                        [near = is_unit(3)](const PointArray& x) { return near(x) && x[2] >= -unit_tolerance; });
+  if (name == "rotation")
+    return unit_vectors("unit quaternions", {"x", "y", "z", "w"}, mc::UnitQuaternions<double>(), rounding, is_unit(4));
   if (name == "disk")
     return part("the unit disk", {"x", "y"}, mc::Disk<double>(), rounding,
                 [](const PointArray& x) { return norm(x, 2) <= 1 + edge_tolerance; });
@@ -136,14 +132,13 @@ Part named(const std::string& name, Rounding rounding) {
     p.chart.axes[1].name = "y / (1 - x)";
     return p;
   }
-  if (name == "rotation") return rotations(rounding);
   static const std::vector<std::string> known = {"sphere", "hemisphere", "disk",     "annulus",
                                                  "ball",   "triangle",   "rotation", "discrete"};
   throw mc::Error(fmt::format("'{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\", nor one of {}{}", name,
                               fmt::join(known, ", "), mc::did_you_mean(name, known)));
 }
 
-constexpr double most_outcomes = 1 << 24, most_bounded = 1 << 20;
+constexpr double most_outcomes = 1 << 24;
 
 double whole_number(std::string_view word, std::string_view whole) {
   const double n = number(word, whole);
@@ -209,22 +204,7 @@ Part product(const Part& a, const Part& b) {
 
 } // namespace
 
-int Outcomes::index(double k) const {
-  if (!(k == std::floor(k) && std::isfinite(k))) return -1;
-  if (k >= lo && k <= hi) return static_cast<int>(k - lo);
-  return has_rest ? static_cast<int>(hi - lo) + 1 : -1;
-}
-
-void Outcomes::bound_by(double least, double largest) {
-  has_rest = !std::isfinite(hi - lo);
-  if (!has_rest) return;
-  if (!std::isfinite(lo)) lo = std::isfinite(hi) ? std::max(least, hi - most_bounded + 1) : least;
-  hi = std::min({hi, largest, lo + most_bounded - 1});
-}
-
-int ParsedDomain::outcome_of(const double* row) const {
-  return !outcomes.any() || (is_mixed() && row[0] < 0) ? -1 : outcomes.index(row[0]);
-}
+int ParsedDomain::outcome_of(const double* row) const { return is_point(row) ? -1 : outcomes.index(row[0]); }
 
 PointArray ParsedDomain::point_of(const double* row) const {
   PointArray x{};
@@ -240,13 +220,12 @@ std::vector<double> ParsedDomain::row_of(const PointArray& x) const {
 
 std::vector<double> ParsedDomain::row_of(int outcome) const {
   std::vector<double> row(columns.size());
-  row[0] = outcomes.lo + outcome;
+  row[0] = outcomes.first + outcome;
   return row;
 }
 
 bool ParsedDomain::contains(const double* row) const {
-  if (!outcomes.any() || (is_mixed() && row[0] < 0)) return chart.contains(point_of(row));
-  return outcomes.index(row[0]) >= 0;
+  return is_point(row) ? chart.contains(point_of(row)) : outcomes.index(row[0]) >= 0;
 }
 
 std::array<double, 3> unknown_quartiles(std::size_t) { return {-1, 0, 1}; }

@@ -2,6 +2,7 @@
 /// Domains from text, given by --domain or by a plugin.
 
 #include <mc/check/subject/any_distribution.h>
+#include <mc/check/subject/outcomes.h>
 
 #include <array>
 #include <functional>
@@ -17,31 +18,19 @@ enum class Rounding {
   floats   ///< as in libmc's domains over float
 };
 
-/// The discrete outcomes of a domain: whole numbers.
-struct Outcomes {
-  double lo = 0, hi = -1; ///< the first and the last; infinite until they are bounded by samples
-  bool has_rest = false;  ///< all whole numbers beyond lo and hi are one more outcome
-  /// Whether there are outcomes.
-  bool any() const { return hi >= lo; }
-  /// The number of outcomes, which are bounded.
-  int count() const { return static_cast<int>(hi - lo) + 1 + int(has_rest); }
-  /// The index of a whole number; -1 for one that is no outcome.
-  int index(double k) const;
-  /// Replaces infinite ends by the extremes of samples, at most 2^20 outcomes from the first; the rest is one more.
-  void bound_by(double least, double largest);
-};
-
 /// A domain with the names of its columns. The first column of a row of a domain with points and outcomes is the
 /// number of an outcome, which has no point, or negative for a point.
 struct ParsedDomain {
   mc::AnyDomain chart;              ///< domain of the points; dimension 0 for outcomes alone
   std::vector<std::string> columns; ///< names of the numbers of a row
   std::string text;                 ///< "x in [0, 1], the unit sphere"
-  Outcomes outcomes = {};           ///< none for a continuous domain
+  mc::Outcomes outcomes = {};       ///< none for a continuous domain
 
   /// Whether rows have points and outcomes.
   bool is_mixed() const { return chart.dim > 0 && outcomes.any(); }
-  /// The outcome of a row; -1 for a point, or for a number that is no outcome.
+  /// Whether a row is a point, inside or outside of the domain.
+  bool is_point(const double* row) const { return !outcomes.any() || (is_mixed() && row[0] < 0); }
+  /// The index of the outcome of a row; -1 for a point, or for a number that is no outcome.
   int outcome_of(const double* row) const;
   /// The point of a row.
   mc::PointArray point_of(const double* row) const;

@@ -50,7 +50,7 @@ struct Samples {
   // edge came from the inside. Returns the row itself if no attempt hits the domain.
   std::vector<double> point(std::uint32_t row, std::uint64_t seed) const {
     std::vector<double> x(table.row(row), table.row(row) + columns());
-    if (domain.chart.dim == 0 || domain.outcome_of(x.data()) >= 0) return x;
+    if (!domain.is_point(x.data())) return x;
     for (const std::uint64_t by : {seed, usual})
       for (std::uint64_t attempt = 0; attempt < 256; ++attempt) {
         std::vector<double> moved = x;
@@ -61,10 +61,7 @@ struct Samples {
     return x;
   }
   // Whether the row or a moved point lies in the domain.
-  //   given : the outcomes before they were bounded.
-  bool is_inside(std::uint32_t row, const Outcomes& given) const {
-    const double k = table.row(row)[0];
-    if (given.any() && !(domain.is_mixed() && k < 0)) return k == std::floor(k) && k >= given.lo && k <= given.hi;
+  bool is_inside(std::uint32_t row) const {
     return domain.contains(table.row(row)) || domain.contains(point(row, usual).data());
   }
   std::string text(std::uint32_t row) const {
@@ -87,11 +84,15 @@ struct Samples {
   }
 };
 
+std::vector<double> column_of(const CsvTable& table, std::size_t column) {
+  std::vector<double> values(table.rows());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.row(i)[column];
+  return values;
+}
+
 std::array<double, 3> quartiles(const CsvTable& table, std::size_t column) {
   mc::require(column < table.columns, "it has more columns than the samples, which have {}", table.columns);
-  std::vector<double> values;
-  for (std::size_t i = 0; i < table.rows(); ++i) values.push_back(table.row(i)[column]);
-  return quartiles_of(std::move(values));
+  return quartiles_of(column_of(table, column));
 }
 
 std::string default_domain(std::size_t columns) {
@@ -133,13 +134,15 @@ std::pair<double, double> integral_of_points(const Samples& s) {
   return {r.total.value * scale, r.total.error / r.total.value};
 }
 
-// The sum of the density over whole numbers beyond the listed outcomes, until the terms vanish.
-double sum_beyond(const Samples& s, double from, double step, double so_far) {
+// The sum of the density over the outcomes from, from + step, ... until the terms vanish.
+double sum_from(const Samples& s, double from, double step, double so_far) {
   constexpr int most_terms = 10'000'000;
   constexpr double negligible = 1e-17;
   mc::CompensatedSum sum;
   for (int i = 0; i < most_terms; ++i) {
-    const double k = from + step * i, term = checked(s.density({&k, 1}), fmt::format("outcome {}", k));
+    const double k = from + step * i;
+    if (s.domain.outcomes.index(k) < 0) return sum.value();
+    const double term = checked(s.density({&k, 1}), fmt::format("outcome {}", k));
     sum.add(term);
     if (term <= negligible * (so_far + sum.value())) return sum.value();
   }
@@ -149,14 +152,13 @@ double sum_beyond(const Samples& s, double from, double step, double so_far) {
 }
 
 // Divides the density by its integral over the points and its sum over the outcomes.
-void normalize(Samples& s, const Outcomes& given) {
+void normalize(Samples& s) {
   mc::CompensatedSum sum;
-  for (int i = 0; s.domain.outcomes.any() && i < s.domain.outcomes.count() - int(s.domain.outcomes.has_rest); ++i)
-    sum.add(checked(s.density(s.domain.row_of(i)), fmt::format("outcome {}", s.domain.outcomes.lo + i)));
-  if (s.domain.outcomes.has_rest && given.hi > s.domain.outcomes.hi)
-    sum.add(sum_beyond(s, s.domain.outcomes.hi + 1, 1, sum.value()));
-  if (s.domain.outcomes.has_rest && given.lo < s.domain.outcomes.lo)
-    sum.add(sum_beyond(s, s.domain.outcomes.lo - 1, -1, sum.value()));
+  const mc::Outcomes& outcomes = s.domain.outcomes;
+  for (int i = 0; i < outcomes.listed(); ++i)
+    sum.add(checked(s.density(s.domain.row_of(i)), fmt::format("outcome {}", outcomes.first + i)));
+  if (outcomes.last < outcomes.hi) sum.add(sum_from(s, outcomes.last + 1, 1, sum.value()));
+  if (outcomes.first > outcomes.lo) sum.add(sum_from(s, outcomes.first - 1, -1, sum.value()));
   double mass = sum.value(), error = 0;
   if (s.domain.chart.dim > 0) {
     const auto [points, relative] = integral_of_points(s);
@@ -186,24 +188,24 @@ Density exponential(const Density& log_density, const CsvTable& table, bool unno
 
 // The probabilities of the outcomes, from the density or from a file. The rest of infinitely many is the rest of 1.
 std::vector<double> probabilities(const SamplesFileOptions& o, const Samples& s) {
-  const Outcomes& outcomes = s.domain.outcomes;
+  const mc::Outcomes& outcomes = s.domain.outcomes;
   std::vector<double> p;
   if (!o.pdf.empty()) {
     p = read_csv(o.pdf).values;
-    mc::require(p.size() == static_cast<std::size_t>(outcomes.count()) && !outcomes.has_rest,
+    mc::require(p.size() == static_cast<std::size_t>(outcomes.count()) && !outcomes.has_rest(),
                 "{}: {} numbers; {} outcomes are named", o.pdf, p.size(),
-                outcomes.has_rest ? "infinitely many" : std::to_string(outcomes.count()));
+                outcomes.has_rest() ? "infinitely many" : std::to_string(outcomes.count()));
   } else {
-    for (int i = 0; i < outcomes.count() - int(outcomes.has_rest); ++i) p.push_back(s.density(s.domain.row_of(i)));
+    for (int i = 0; i < outcomes.listed(); ++i) p.push_back(s.density(s.domain.row_of(i)));
   }
   mc::CompensatedSum sum;
   for (std::size_t i = 0; i < p.size(); ++i)
-    sum.add(checked(p[i], fmt::format("outcome {}", outcomes.lo + static_cast<double>(i)),
+    sum.add(checked(p[i], fmt::format("outcome {}", outcomes.first + static_cast<double>(i)),
                     o.pdf.empty() ? "--pdf" : o.pdf));
-  if (outcomes.has_rest) p.push_back(std::max(1 - sum.value(), 0.0));
   mc::require(sum.value() > 0 || s.domain.is_mixed(), "the probabilities are all 0");
   if (o.unnormalized && !o.pdf.empty())
     for (double& one : p) one /= sum.value();
+  outcomes.add_rest(p);
   return p;
 }
 
@@ -211,8 +213,7 @@ std::vector<double> probabilities(const SamplesFileOptions& o, const Samples& s)
 double autocorrelation_time(const CsvTable& table) {
   double largest = 1;
   for (std::size_t k = 0; k < table.columns; ++k) {
-    std::vector<double> column;
-    for (std::size_t i = 0; i < table.rows(); ++i) column.push_back(table.row(i)[k]);
+    std::vector<double> column = column_of(table, k);
     largest = std::max(largest, mc::autocorrelation_time(column));
     const double mean = std::accumulate(column.begin(), column.end(), 0.0) / static_cast<double>(column.size());
     for (double& x : column) x = mc::sqr(x - mean);
@@ -234,11 +235,11 @@ std::string thin(const SamplesFileOptions& o, CsvTable& table) {
     step = static_cast<std::size_t>(*given);
   }
   mc::require(all / step >= 2000,
-              "{}: {} rows with an autocorrelation time of {:.3g} rows; every {}th leaves {}, and 2000 are needed: "
+              "{}: {} rows with an autocorrelation time of {:.3g} rows; one in {} leaves {}, and 2000 are needed: "
               "{:.2g} times as many rows",
               o.samples, all, time, step, all / step, 2000 * double(step) / double(all));
   table.keep_every(step);
-  return fmt::format("{}: autocorrelation time {:.3g} rows; {} of {} rows are checked, each {}th", o.samples, time,
+  return fmt::format("{}: autocorrelation time {:.3g} rows; {} of {} rows are checked, one in {}", o.samples, time,
                      table.rows(), all, step);
 }
 
@@ -254,21 +255,15 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
   mc::require(names.size() == table.columns, "{}: {} columns; {} {} needed on {}", o.samples, table.columns,
               names.size(), names.size() == 1 ? "is" : "are", domain.text);
   ParsedDomain strict = parse_domain(text, quartiles_in, Rounding::doubles);
-  const Outcomes given = domain.outcomes;
-  if (given.any()) {
-    double least = HUGE_VAL, largest = -HUGE_VAL;
-    for (std::size_t i = 0; i < table.rows(); ++i) {
-      least = std::min(least, table.row(i)[0]);
-      largest = std::max(largest, table.row(i)[0]);
-    }
-    domain.outcomes.bound_by(std::max(least, given.lo), std::min(largest, given.hi));
+  if (!std::isfinite(domain.outcomes.hi - domain.outcomes.lo)) {
+    domain.outcomes.list(column_of(table, 0));
     strict.outcomes = domain.outcomes;
   }
   Samples s{o.samples, std::move(table), std::move(domain), std::move(strict), {}};
   s.note = note;
   std::uint32_t off = 0, first_off = 0;
   for (auto i = static_cast<std::uint32_t>(s.table.rows()); i-- > 0;)
-    if (!s.is_inside(i, given)) {
+    if (!s.is_inside(i)) {
       ++off;
       first_off = i;
     }
@@ -280,7 +275,7 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
   s.density = parse_function(o.density, names);
   if (o.is_log) s.density = exponential(s.density, s.table, o.unnormalized);
   s.breaks = parse_breaks(o.breaks, s.domain.chart);
-  if (o.unnormalized) normalize(s, given);
+  if (o.unnormalized) normalize(s);
   return std::make_shared<const Samples>(std::move(s));
 }
 

@@ -14,9 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +27,8 @@ using nlohmann::json;
 namespace {
 
 using Rows = std::vector<double>;
+
+void append(const Rows& row, Rows& rows) { rows.insert(rows.end(), row.begin(), row.end()); }
 
 // A program that samples a distribution on a domain, in batches.
 class SamplingProgram {
@@ -70,12 +70,11 @@ class SamplingProgram {
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       const double* row = &x[i * columns];
       AnyDistribution::Sample& d = *drawn[i];
-      if (domain_.outcomes.any() && !(domain_.is_mixed() && row[0] < 0)) {
+      if (!domain_.is_point(row)) {
         d.atom = domain_.outcomes.index(row[0]);
         if (d.atom < 0) d.x[0] = row[0];
         mc::require(d.atom >= 0 || !std::isfinite(row[0]) || !domain_.is_mixed(),
                     "it returned outcome {}; the domain has {}", row[0], domain_.text);
-        if (d.atom < 0 && domain_.is_mixed()) d.x.fill(std::numeric_limits<double>::quiet_NaN());
         continue;
       }
       d.x = domain_.point_of(row);
@@ -89,7 +88,6 @@ class SamplingProgram {
   }
 
  private:
-  static void append(const Rows& row, Rows& rows) { rows.insert(rows.end(), row.begin(), row.end()); }
   Rows ask(const char* what, const char* argument, const Rows& in, std::size_t width, std::size_t answer_width) {
     Rows out(in.size() / width * answer_width);
     program_.ask(what, argument, in, width, out);
@@ -132,17 +130,14 @@ double time_of(SamplingProgram& program) {
   return 1e9 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / mc::timing_inputs;
 }
 
-// The probabilities of the outcomes; the rest of infinitely many is the rest of 1.
+// The probabilities of the outcomes.
 std::vector<double> probabilities(SamplingProgram& program) {
-  const Outcomes& outcomes = program.domain().outcomes;
+  const mc::Outcomes& outcomes = program.domain().outcomes;
   if (!outcomes.any()) return {};
   Rows rows;
-  for (int i = 0; i < outcomes.count() - int(outcomes.has_rest); ++i) {
-    const std::vector<double> row = program.domain().row_of(i);
-    rows.insert(rows.end(), row.begin(), row.end());
-  }
+  for (int i = 0; i < outcomes.listed(); ++i) append(program.domain().row_of(i), rows);
   std::vector<double> p = program.densities(rows);
-  if (outcomes.has_rest) p.push_back(std::max(1 - std::accumulate(p.begin(), p.end(), 0.0), 0.0));
+  outcomes.add_rest(p);
   return p;
 }
 
@@ -172,11 +167,11 @@ AnyDistribution distribution_of(const std::shared_ptr<SamplingProgram>& program)
 // Charts of infinite intervals are centred on pilot samples, and infinitely many outcomes end at their extremes.
 void adapt_domain(SamplingProgram& program, const std::string& text, std::uint64_t seed) {
   constexpr std::size_t of_points = 1000, of_outcomes = 1 << 16;
-  const Outcomes given = program.domain().outcomes;
+  const bool has_outcomes = program.domain().outcomes.any();
   const std::size_t columns = program.domain().columns.size();
   std::optional<Rows> pilot;
   const auto numbers = [&](std::size_t column) {
-    if (!pilot) pilot = program.rows(input_of(program, mc::hash(seed, 42), given.any() ? of_outcomes : of_points));
+    if (!pilot) pilot = program.rows(input_of(program, mc::hash(seed, 42), has_outcomes ? of_outcomes : of_points));
     std::vector<double> all;
     for (std::size_t i = 0; i < pilot->size(); i += columns)
       if (!program.domain().is_mixed() || column == 0 || (*pilot)[i] < 0) all.push_back((*pilot)[i + column]);
@@ -184,13 +179,7 @@ void adapt_domain(SamplingProgram& program, const std::string& text, std::uint64
   };
   ParsedDomain domain = parse_domain(
       text, [&](std::size_t column) { return quartiles_of(numbers(column)); }, Rounding::doubles);
-  if (given.any() && !std::isfinite(given.hi - given.lo)) {
-    std::vector<double> k = numbers(0);
-    std::erase_if(k, [&](double one) { return !(one >= given.lo && one <= given.hi); });
-    mc::require(!k.empty(), "none of {} samples is in {}", of_outcomes, domain.text);
-    const auto [least, largest] = std::minmax_element(k.begin(), k.end());
-    domain.outcomes.bound_by(*least, *largest);
-  }
+  if (!std::isfinite(domain.outcomes.hi - domain.outcomes.lo)) domain.outcomes.list(numbers(0));
   program.set_domain(std::move(domain));
 }
 

@@ -14,11 +14,9 @@
 ///   request : {"task": NAME, "who": prefix of errors, "limits": {...}, and further fields of the task}.
 ///   answer  : {"result": ...} or {"error": one line}.
 
-#include <terminal/interrupt.h>
-
 #include <plugin/run_isolated.h>
-
 #include <process/child.h>
+#include <terminal/interrupt.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -19,7 +19,7 @@ namespace mc {
 ///   determinism       : equal u give equal points; equal points give equal pdf and invert, bit for bit. Repeated calls
 ///                       follow at once and after one, two and three other samples. Different u give different points.
 ///   batch_consistency : samples and densities of a batch equal the results of single calls, up to rounding (needs
-///                       sample_many).
+///                       sample_many or sample_stream_many).
 ///   support           : eval is finite and >= 0, and pdf > 0 wherever eval > 0, at 20000 uniform points of the chart
 ///                       (needs eval).
 ///   inverse           : |invert(sample(u)) - u| <= invert_eps eps, at 20000 random u (needs invert).
@@ -35,13 +35,6 @@ AnyDistribution with_tolerances(AnyDistribution distribution, const LawOptions& 
 
 /// Tests the deterministic laws, then runs check_subject unless options.statistics.samples is 0.
 Report check_laws(const AnyDistribution& distribution, const LawOptions& options = {});
-
-/// Checks a family of distributions, such as a BSDF over its roughness and directions, at random parameters.
-///   count  : number of members, >= 1. All their tests together have options.statistics.alpha.
-///   make   : returns a member, make(random), whose name states its parameters.
-///   return : the report of the member that failed first; if all passed, of the one with the smallest p.
-Report check_random_parameters(int count, const std::function<AnyDistribution(Pcg& random)>& make,
-                               const LawOptions& options = {});
 
 /// The same for a warp, or any struct with Domain, domain(), sample(u) and pdf(x).
 template <class W> Report check_laws(const W& warp, const LawOptions& options = {}) {
@@ -62,5 +55,12 @@ Report check_laws(const D& domain, Draw sample, Pdf pdf, const LawOptions& optio
   return check_laws(
       with_tolerances(make_distribution(options.name, domain, std::move(sample), std::move(pdf)), options), options);
 }
+
+/// Checks a family of distributions, such as a BSDF over its roughness and directions, at random parameters.
+///   count  : number of members, >= 1. All their tests together have options.statistics.alpha.
+///   make   : returns a member, make(random), whose name states its parameters.
+///   return : the report of the member that failed first; if all passed, of the one with the smallest p.
+Report check_random_parameters(int count, const std::function<AnyDistribution(Pcg& random)>& make,
+                               const LawOptions& options = {});
 
 } // namespace mc

@@ -93,22 +93,6 @@ TEST(ParsedDomain, Outcomes_AreIntegers) {
   EXPECT_EQ(parse_domain("discrete=-3:4").outcomes.count(), 8);
 }
 
-// Infinitely many outcomes end at the extremes of samples, and all others are one more.
-TEST(ParsedDomain, InfiniteOutcomes_AreBoundedBySamples) {
-  carlo::Outcomes all = parse_domain("discrete=-inf:inf").outcomes;
-  all.bound_by(-4, 7);
-  EXPECT_EQ(all.count(), 13);
-  EXPECT_EQ(all.index(-4), 0);
-  EXPECT_EQ(all.index(7), 11);
-  EXPECT_EQ(all.index(8), 12);
-  EXPECT_EQ(all.index(-1e9), 12);
-  EXPECT_EQ(all.index(0.5), -1);
-  carlo::Outcomes below = parse_domain("discrete=-inf:0").outcomes;
-  below.bound_by(-1e9, 0);
-  EXPECT_EQ(below.count(), (1 << 20) + 1);
-  EXPECT_EQ(below.index(0), (1 << 20) - 1);
-}
-
 TEST(ParsedDomain, PointsAndOutcomes_HaveAFirstColumn) {
   const ParsedDomain d = parse_domain("outcome=2,x=0:3");
   EXPECT_TRUE(d.is_mixed());

@@ -76,18 +76,19 @@ TEST_F(Command, EveryApplicableLaw_IsTested) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
-const std::string rejection = MC_SOURCE_DIR "/examples/program-python/rejection.py";
-
 // A program with random numbers of its own answers seeds.
 TEST_F(Command, RejectionSampler_DrawsFromSeeds) {
-  ValidateCommandOptions o = options("python3 '" + rejection + "'");
+  ValidateCommandOptions o = options("python3 '" + script + "'");
   o.uniforms = "own";
   const Output right = run(o);
   EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
-  std::string text = mc::read_file(rejection);
-  const std::string from = "x * x + y * y <= 1", to = "x * x + y * y <= 1 and x < 0.9";
-  o.sampler_command = "python3 '" + write("cut.py", text.replace(text.find(from), from.size(), to)) + "'";
-  EXPECT_EQ(run(o).code, carlo::exit_failed);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    o.sampler_command = changed(from, to).sampler_command;
+    return run(o);
+  };
+  EXPECT_EQ(with("x * x + y * y <= 1", "x * x + y * y <= 1 and x < 0.9").code, carlo::exit_failed);
+  EXPECT_THAT(with("random.Random(int(seed[0]))", "random").text, HasSubstr("law: batch consistency of sample"))
+      << "it ignores the seed";
   o.uniforms = "some";
   EXPECT_THAT(refusal(o), HasSubstr("--uniforms 'some' must be a number, or own"));
 }
@@ -95,9 +96,13 @@ TEST_F(Command, RejectionSampler_DrawsFromSeeds) {
 // A program over a domain, from the bodies of its functions sample(u) and pdf(x).
 std::string program(const std::string& sample, const std::string& pdf) {
   std::string text = mc::read_file(script);
-  const std::size_t begin = text.find("def sample"), end = text.find("def answer");
-  return text.replace(begin, end - begin,
-                      "def sample(u):\n    return " + sample + "\n\n\ndef pdf(x):\n    return (" + pdf + ",)\n\n\n");
+  const auto replace = [&](const char* from, const char* to, const std::string& by) {
+    const std::size_t begin = text.find(from);
+    text.replace(begin, text.find(to) - begin, by + "\n\n\n");
+  };
+  replace("def sample", "def draw", "def sample(u):\n    return " + sample);
+  replace("def pdf", "def answer", "def pdf(x):\n    return (" + pdf + ",)");
+  return text;
 }
 
 TEST_F(Command, OtherKindsOfDistributions) {

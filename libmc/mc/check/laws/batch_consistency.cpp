@@ -35,19 +35,22 @@ std::string describe_result(const AnyDistribution& s, const OptionalSample& draw
 } // namespace
 
 Findings batch_consistency_law(const AnyDistribution& s, const LawOptions& options) {
-  if (!s.sample || !s.sample_many) return {};
+  const bool is_stream = static_cast<bool>(s.sample_stream_many);
+  if (!is_stream && !(s.sample && s.sample_many)) return {};
   WorstError samples("batch consistency of sample", rounding, Fault::nondeterministic);
   WorstError densities("batch consistency of pdf", rounding, Fault::nondeterministic);
-  Pcg random(options.statistics.seed, 16);
-  std::vector<AnyDistribution::Uniforms> u(batch);
+  const std::uint64_t stream = hash(options.statistics.seed, 16);
+  Pcg random = is_stream ? Pcg(stream) : Pcg(options.statistics.seed, 16);
+  std::vector<AnyDistribution::Uniforms> u(is_stream ? 0 : batch);
   for (AnyDistribution::Uniforms& one : u) one = rounded_uniforms(s, random);
-  const std::vector<OptionalSample> drawn = s.sample_many(u);
+  const std::vector<OptionalSample> drawn = is_stream ? s.sample_stream_many(stream, batch) : s.sample_many(u);
   std::vector<PointArray> x;
   for (std::size_t i = 0; i < batch; ++i) {
-    const OptionalSample alone = s.sample(u[i]);
+    const OptionalSample alone = is_stream ? s.sample_stream(random) : s.sample(u[i]);
     samples.note(off(drawn[i], alone), [&] {
-      return fmt::format("sample is {} at position {} of a batch of {}, should be {} as for a single call, at u = {}",
-                         describe_result(s, drawn[i]), i + 1, batch, describe_result(s, alone), format_u(s, u[i]));
+      return fmt::format("sample is {} at position {} of a batch of {}, should be {} as for a single call{}",
+                         describe_result(s, drawn[i]), i + 1, batch, describe_result(s, alone),
+                         is_stream ? "" : ", at u = " + format_u(s, u[i]));
     });
     if (to_chart(s, alone).draw.kind == Subject::Draw::Kind::point) x.push_back(alone->x);
   }

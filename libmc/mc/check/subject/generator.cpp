@@ -1,4 +1,5 @@
 #include <mc/check/subject/generator.h>
+#include <mc/check/subject/outcomes.h>
 
 #include <mc/random/hash.h>
 
@@ -68,28 +69,17 @@ Subject subject_of_pdf(const AnyGenerator& g, std::function<double(double)> pdf)
 }
 
 Subject subject_of_pmf(const AnyGenerator& g, const std::function<double(double)>& pmf) {
-  constexpr double most = 1 << 20;
-  double lo = g.lo, hi = g.hi;
-  const bool is_lumped = !(hi - lo < most);
-  if (is_lumped) {
-    const std::vector<double> x = g.draw(pilot_seed, 1 << 16);
-    const auto [least, greatest] = std::minmax_element(x.begin(), x.end());
-    lo = std::max(lo, std::isfinite(lo) && *greatest - lo < most ? lo : *least);
-    hi = std::min({hi, *greatest, lo + most - 1});
-  }
+  constexpr double most_without_pilot = 1 << 20;
+  Outcomes outcomes(g.lo, g.hi);
+  if (!(g.hi - g.lo < most_without_pilot)) outcomes.list(g.draw(pilot_seed, 1 << 16));
   Subject s;
   s.name = g.name;
-  double sum = 0;
-  for (double k = lo; k <= hi; ++k) {
-    s.atoms.push_back(pmf(k));
-    sum += s.atoms.back();
-  }
-  if (is_lumped) s.atoms.push_back(std::max(1 - sum, 0.0));
-  const auto to_draw = [lo, hi, is_lumped](double k) {
+  for (double k = outcomes.first; k <= outcomes.last; ++k) s.atoms.push_back(pmf(k));
+  outcomes.add_rest(s.atoms);
+  const auto to_draw = [outcomes](double k) {
     Subject::Draw drawn;
     drawn.kind = Kind::atom;
-    const bool is_listed = k >= lo && k <= hi;
-    if (is_listed || is_lumped) drawn.atom = static_cast<int>(is_listed ? k - lo : hi - lo + 1);
+    drawn.atom = outcomes.index(k);
     return drawn;
   };
   set_draws(g, to_draw, s);
