@@ -18,14 +18,36 @@ namespace {
 
 constexpr int number_of_grids = 5;                    // grids with 1, 2, 4, ... bins of the finest joined along an axis
 constexpr PerAxis<std::size_t> finest{4096, 256, 32}; // bins along an axis, by the number of axes
+constexpr double points_of_bin = 4;
 constexpr double resolved = 0.05;   // variance of an expected count by that of the observed one, at most
 constexpr double cap_over_seen = 4; // largest density that counts, by the largest at the points of a bin
 
+std::size_t number_of_bins(std::size_t size, int dim) {
+  std::size_t count = 1;
+  for (int d = 0; d < dim; ++d) count *= size;
+  return count;
+}
+
+// Bins along an axis of the finest grid: at most as many bins as samples, evaluations of the density for a twelfth of
+// those allowed, and so wide that a lattice of rounding steps changes the counts by less than their noise.
+std::size_t finest_size(const FitSetup& setup) {
+  const SubjectOptions& options = setup.options;
+  const int dim = setup.subject.dim;
+  const double n = static_cast<double>(options.samples), noise = 1 / std::sqrt(n);
+  const double most_bins = std::min(n, static_cast<double>(options.max_evaluations) / (12 * points_of_bin));
+  const double step = mean_step(setup.subject, setup.pilot, noise);
+  std::size_t size = finest[static_cast<std::size_t>(dim - 1)];
+  while (size > 1 &&
+         (static_cast<double>(number_of_bins(size, dim)) > most_bins || step * static_cast<double>(size) > noise))
+    size /= 2;
+  return size;
+}
+
 // A bin of the finest grid.
 struct Bin {
-  float expected = 0, noise = 0; // share of the samples; variance of the expected count, by that of the observed one
-  float cap = 0;                 // density above which a sample counts less: its mass hides between the points
-  float observed = 0;            // sum of the samples' weights
+  double expected = 0, noise = 0; // share of the samples; variance of the expected count, by that of the observed one
+  double cap = 0;                 // density above which a sample counts less: its mass hides between the points
+  double observed = 0;            // sum of the samples' weights
   bool is_resolved = true;
 };
 
@@ -35,7 +57,7 @@ struct Bin {
 struct GridsInProgress {
   int dim;
   double share;
-  std::size_t size = finest[static_cast<std::size_t>(dim - 1)];
+  std::size_t size; // bins of the finest grid along an axis
   std::vector<Bin> bins = {};
 
   std::size_t index(const Subject::Coordinates& v) const {
@@ -55,9 +77,8 @@ struct GridsInProgress {
     return b;
   }
 
-  void expect(const FitSetup& setup) {
-    std::size_t count = 1;
-    for (int d = 0; d < dim; ++d) count *= size;
+  void prepare(const FitSetup& setup) {
+    const std::size_t count = number_of_bins(size, dim);
     bins.resize(count);
     Pcg random(hash(setup.options.seed, 6));
     const double n = static_cast<double>(setup.options.samples);
@@ -81,17 +102,16 @@ struct GridsInProgress {
   bool is_textured() const {
     constexpr double most_of_bin = 10;
     double sum = 0;
-    for (const Bin& bin : bins) sum += std::min(double(bin.noise), most_of_bin);
+    for (const Bin& bin : bins) sum += std::min(bin.noise, most_of_bin);
     return !(sum <= resolved * static_cast<double>(bins.size()));
   }
   static void set(Bin& bin, double volume, std::span<const double, 4> density, double n) {
     EstimatedMass mass;
     mass.add_part(volume, density);
-    bin.expected = static_cast<float>(mass.value);
-    bin.cap = static_cast<float>(cap_over_seen * *std::max_element(density.begin(), density.end()));
-    const double noise = mass.value > 0 ? n * mass.variance / mass.value : 0;
-    bin.noise = static_cast<float>(noise);
-    bin.is_resolved = noise <= resolved && std::isfinite(mass.value) && mass.value >= 0;
+    bin.expected = mass.value;
+    bin.cap = cap_over_seen * *std::max_element(density.begin(), density.end());
+    bin.noise = mass.value > 0 ? n * mass.variance / mass.value : 0;
+    bin.is_resolved = bin.noise <= resolved && std::isfinite(mass.value) && mass.value >= 0;
   }
   // Calls visit(bin, next) for all pairs of bins that are next to each other along an axis.
   template <class Visit> void for_pairs(Visit visit) {
@@ -103,7 +123,7 @@ struct GridsInProgress {
   // Leaves out steps of the density between bins, and the bins next to all those that are left out: an edge may pass
   // between all points of a bin.
   void leave_out_edges() {
-    constexpr float step = 2;
+    constexpr double step = 2;
     std::vector<bool> out(bins.size());
     const auto leave_out = [&] {
       for (std::size_t i = 0; i < bins.size(); ++i) bins[i].is_resolved = bins[i].is_resolved && !out[i];
@@ -124,7 +144,7 @@ struct GridsInProgress {
     if (bins.empty()) return;
     for (std::size_t i = 0; i < block.points.size(); ++i) {
       Bin& bin = bins[index(block.points[i])];
-      bin.observed += block.densities[i] > double(bin.cap) ? bin.cap / static_cast<float>(block.densities[i]) : 1;
+      bin.observed += block.densities[i] > bin.cap ? bin.cap / block.densities[i] : 1;
     }
   }
 
@@ -135,27 +155,25 @@ struct GridsInProgress {
     return at;
   }
   // Chi-square over the bins of a grid, given their sum. Bins that expect less than one sample are pooled in their
-  // order. Its mean is the number of bins and its variance the sum of 2 + 1 / expected [HaldaneCochran], matched by a
-  // scaled chi-square.
+  // order. Counts of Poisson variables have the variance 2 + 1 / expected of a term of chi-square [Haldane37]; a scaled
+  // chi-square matches the mean and the variance of the sum.
   std::optional<Check> test(int halving, double share_of_grid, double alpha) const {
     const std::size_t side = size >> halving;
     if (side < 2) return {};
-    std::size_t count = 1;
-    for (int d = 0; d < dim; ++d) count *= side;
     struct Sum {
       double expected = 0, noise = 0, observed = 0;
     };
-    std::vector<Sum> sums(count);
+    std::vector<Sum> sums(number_of_bins(side, dim));
     double expected = 0, observed = 0;
     for (std::size_t i = 0; i < bins.size(); ++i) {
       const Bin& bin = bins[i];
       if (!bin.is_resolved || !(bin.expected > 0)) continue;
       Sum& sum = sums[joined(i, halving)];
-      sum.expected += double(bin.expected);
-      sum.noise += double(bin.noise * bin.expected);
-      sum.observed += double(bin.observed);
-      expected += double(bin.expected);
-      observed += double(bin.observed);
+      sum.expected += bin.expected;
+      sum.noise += bin.noise * bin.expected;
+      sum.observed += bin.observed;
+      expected += bin.expected;
+      observed += bin.observed;
     }
     const double scale = observed / expected;
     double statistic = 0, terms = 0, variance = 0;
@@ -191,12 +209,8 @@ struct GridsInProgress {
 // Chi-square on grids of equal bins, from coarse to fine. Unlike the cells of the tree, the bins are small wherever the
 // density is low.
 FitTest grid_test(const FitSetup& setup, double share) {
-  GridsInProgress grids{setup.subject.dim, share};
-  // A lattice of steps changes the counts of bins by less than their noise.
-  const double noise = 1 / std::sqrt(static_cast<double>(setup.options.samples));
-  const double step = mean_step(setup.subject, setup.pilot, noise);
-  while (grids.size > 1 && step * static_cast<double>(grids.size) > noise) grids.size /= 2;
-  if (grids.size > 1) grids.expect(setup);
+  GridsInProgress grids{setup.subject.dim, share, finest_size(setup)};
+  if (grids.size > 1) grids.prepare(setup);
   return make_fit_test(std::move(grids));
 }
 

@@ -90,14 +90,14 @@ SpectrumTest::SpectrumTest(int dim, double samples, double step) : dim_(dim) {
 std::vector<Check> SpectrumTest::test(const WeightedCounts& all, double share, double alpha,
                                       const char* coordinates) const {
   double observed = 0, expected = 0, collisions = 0;
-  for (const float o : observed_) observed += static_cast<double>(o);
-  for (const float e : expected_) expected += static_cast<double>(e);
+  for (const double o : observed_) observed += o;
+  for (const double e : expected_) expected += e;
   if (!(observed > 0 && expected > 0 && size_ >= 8)) return {};
   const double scale = observed / expected, bins = static_cast<double>(observed_.size());
   std::vector<float> off(observed_.size());
   for (std::size_t i = 0; i < off.size(); ++i) {
-    off[i] = static_cast<float>(static_cast<double>(observed_[i]) - scale * static_cast<double>(expected_[i]));
-    collisions += sqr(static_cast<double>(expected_[i]));
+    off[i] = static_cast<float>(observed_[i] - scale * expected_[i]);
+    collisions += sqr(expected_[i]);
   }
   const double variance = all.observed_squares + sqr(scale) * std::max(all.expected_squares, all.shares / scale);
   // Neighbouring coefficients are correlated: factor of the variance of a sum of squares, compared with independent

@@ -22,11 +22,11 @@ class SpectrumTest {
  public:
   SpectrumTest(int dim, double samples, double step);
 
-  void add_sample(const Subject::Coordinates& v, double weight) { observed_[bin(v)] += static_cast<float>(weight); }
+  void add_sample(const Subject::Coordinates& v, double weight) { observed_[bin(v)] += weight; }
   /// Adds a random point that represents a share of the expected samples.
-  void add_expected(const Subject::Coordinates& v, double share) { expected_[bin(v)] += static_cast<float>(share); }
+  void add_expected(const Subject::Coordinates& v, double share) { expected_[bin(v)] += share; }
   /// Expects the same count in all bins, instead of random points.
-  void expect_uniform() { std::fill(expected_.begin(), expected_.end(), 1.0f); }
+  void expect_uniform() { std::fill(expected_.begin(), expected_.end(), 1.0); }
 
   /// Returns two Checks that spend half of `share` each, both given the sum of the samples; none if the steps leave
   /// fewer than 8 bins on an axis.
@@ -50,8 +50,8 @@ class SpectrumTest {
   }
 
   int dim_;
-  std::size_t size_; ///< number of bins on an axis
-  std::vector<float> observed_, expected_;
+  std::size_t size_;                        ///< number of bins on an axis
+  std::vector<double> observed_, expected_; // floats would not count beyond 2^24
 };
 
 /// Returns the mean width of the rounding steps at the pilot's points, on the axis where it is largest. Each width
