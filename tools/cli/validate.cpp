@@ -2,10 +2,8 @@
 #include <catalogue/descriptions.h>
 #include <catalogue/looks.h>
 #include <cli/validate.h>
-#include <input/samples_file.h>
+#include <cli/validate_input.h>
 #include <options/run_session.h>
-#include <plugin/command.h>
-#include <plugin/plugin.h>
 #include <report/validate_output.h>
 #include <terminal/columns.h>
 #include <terminal/interrupt.h>
@@ -110,67 +108,6 @@ std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
                      r.seconds);
 }
 
-// The user's own code or samples, checked in place of the catalogue.
-struct UserInput {
-  Catalogue cases;
-  std::uint64_t samples = 0; ///< number of samples of a file; 0: the option decides
-};
-
-int uniforms_of(const ValidateCommandOptions& o) {
-  if (o.uniforms.empty()) return 0;
-  mc::require(!o.sampler_command.empty(), "validate: --uniforms {} is for a --command", o.uniforms);
-  if (o.uniforms == "own") return CommandDistribution::own_numbers;
-  const std::optional<double> n = mc::parse_double(o.uniforms);
-  mc::require(n && *n >= 0 && *n == std::floor(*n) && *n < 1e6,
-              "validate: --uniforms '{}' must be a number, or own for random numbers of the program", o.uniforms);
-  return static_cast<int>(*n);
-}
-
-UserInput read_user_input(const ValidateCommandOptions& o, const std::atomic<bool>* cancel) {
-  mc::require(int(!o.plugin.empty()) + int(!o.samples_file.empty()) + int(!o.sampler_command.empty()) <= 1,
-              "validate: give one of --plugin, --command and --samples-file");
-  mc::require(o.sampler_command.empty() || !o.domain.empty(), "validate: --command needs the --domain of its samples");
-  mc::require(o.domain.empty() || !o.samples_file.empty() || !o.sampler_command.empty(),
-              "validate: --domain is for a --command or a --samples-file");
-  mc::require(!o.unnormalized || !o.pdf.empty() || !o.pdf_file.empty(),
-              "validate: --unnormalized is for a density of a --samples-file, from --pdf or --pdf-file");
-  mc::require(!o.dependent || !o.samples_file.empty(), "validate: --dependent is for the rows of a --samples-file");
-  const int uniforms = uniforms_of(o);
-  mc::require(!o.log_density || !o.pdf.empty() || !o.sampler_command.empty(),
-              "validate: --log-density is for a --pdf or a --command");
-  mc::require(o.thin.empty() || !o.samples_file.empty(), "validate: --thin is for the rows of a --samples-file");
-  mc::require(o.thin.empty() || o.pdf_file.empty(), "validate: --thin needs a --pdf");
-  mc::require(o.parameters.empty() || !o.plugin.empty(), "validate: --params sets parameters of a --plugin");
-  mc::require(o.random_parameters >= 0 && o.random_parameters <= 10000 &&
-                  (o.random_parameters == 0 || !o.plugin.empty()),
-              "validate: --random-params {} is for a --plugin, and at most 10000", o.random_parameters);
-  mc::require((o.pdf_file.empty() && o.pdf.empty()) || !o.samples_file.empty(),
-              "validate: {} needs samples to compare with: --samples-file", o.pdf.empty() ? "--pdf-file" : "--pdf");
-  mc::require(o.pdf_file.empty() || o.pdf.empty(), "validate: give --pdf-file or --pdf, not both");
-  mc::require(o.breaks.empty() || !o.pdf.empty() || !o.sampler_command.empty(),
-              "validate: --breaks is for a --pdf or a --command");
-  UserInput user_input;
-  const bool is_foreign = !o.plugin.empty() || !o.sampler_command.empty();
-  std::optional<double> timeout = o.timeout;
-  // A wanted error decides the number of samples, so it also decides the time that they may take.
-  if (o.detect && !timeout && is_foreign && *o.detect > 0)
-    timeout = 60 + 1e-5 * static_cast<double>(mc::samples_to_detect(*o.detect, o.alpha));
-  const WorkerOptions worker{
-      .limits = resource_limits(timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
-  if (!o.plugin.empty())
-    user_input.cases = plugin_cases(o.plugin, o.parameters, o.names, worker, {o.random_parameters, o.seed});
-  if (!o.sampler_command.empty())
-    user_input.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, uniforms, o.log_density}, worker));
-  if (!o.samples_file.empty()) {
-    const SamplesFileCase file = samples_file_case(
-        {o.samples_file, o.pdf_file, o.pdf, o.domain, o.breaks, o.unnormalized, o.dependent, o.log_density, o.thin});
-    if (!file.note.empty()) fmt::print("{}\n", file.note);
-    user_input.cases.push_back(file.one);
-    user_input.samples = file.samples;
-  }
-  return user_input;
-}
-
 constexpr std::uint64_t most_samples = 1'000'000'000'000'000; // counts in doubles stay exact
 
 // The time of so many samples at a million a second, "12 s" or "2.8 h".
@@ -201,7 +138,7 @@ struct CheckedCases {
   std::vector<const Case*> cases;
   std::vector<mc::Report> reports;
   std::vector<UncheckedCase> unchecked;
-  std::vector<const Case*> incomplete = {}; ///< of `cases`: their reports are those of fewer samples
+  std::size_t incomplete = 0; ///< number of cases at the end of `cases` with the reports of fewer samples
 };
 
 // Checks a case; calls before_draws with the number of samples that are drawn next.
@@ -225,9 +162,9 @@ class ValidateJob {
  public:
   /// The report of a case, or the error of a case that could not be checked.
   struct Result {
-    LookReport checked;
+    mc::Report report;
     std::string error;
-    template <class Archive> void archive(Archive& a) { a(checked.report, checked.is_complete, error); }
+    template <class Archive> void archive(Archive& a) { a(report, error); }
   };
 
   ValidateJob(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
@@ -242,7 +179,9 @@ class ValidateJob {
   std::optional<Result> compute(std::size_t i) const {
     Result result;
     try {
-      result.checked = check(*cases_[i], options_, alpha_, [this](std::uint64_t draws) { count(draws); });
+      LookReport checked = check(*cases_[i], options_, alpha_, [this](std::uint64_t draws) { count_draws(draws); });
+      if (!checked.is_complete) return keep(i, std::move(checked.report));
+      result.report = std::move(checked.report);
     } catch (const Interrupted&) {
       return {};
     } catch (const mc::Error& e) { // a crash of one case leaves the results of the others
@@ -262,11 +201,11 @@ class ValidateJob {
 
   // Prints the lines that were not printed yet.
   void print_lines() {
-    const std::lock_guard lock(of_progress_);
+    const std::lock_guard lock(mutex_);
     progress_.clear();
     for (auto one = results_.lower_bound(printed_); one != results_.end(); ++one) {
       const auto& [i, result] = *one;
-      if (result.error.empty()) fmt::print("{}", line_of(width_, *cases_[i], result.checked.report));
+      if (result.error.empty()) fmt::print("{}", line_of(width_, *cases_[i], result.report));
       else fmt::print("{:<{}} {:<7} {}\n", cases_[i]->label(), width_, cases_[i]->scalar, "error");
       printed_ = i + 1;
     }
@@ -281,21 +220,31 @@ class ValidateJob {
         continue;
       }
       all.cases.push_back(cases_[i]);
-      all.reports.push_back(result.checked.report);
-      if (!result.checked.is_complete) all.incomplete.push_back(cases_[i]);
+      all.reports.push_back(result.report);
     }
+    for (const auto& [i, report] : incomplete_) {
+      all.cases.push_back(cases_[i]);
+      all.reports.push_back(report);
+    }
+    all.incomplete = incomplete_.size();
     return all;
   }
 
  private:
+  // Keeps the report of an interrupted case for the output. The case is not done: a run that goes on checks it again.
+  std::optional<Result> keep(std::size_t i, mc::Report report) const {
+    const std::lock_guard lock(mutex_);
+    incomplete_.emplace(i, std::move(report));
+    return {};
+  }
   // Counts samples that are drawn next. Any thread calls it.
-  void count(std::uint64_t draws) const {
+  void count_draws(std::uint64_t draws) const {
     if (*cancel_) throw Interrupted();
     drawn_ += draws;
     show_progress(finished_);
   }
   void show_progress(std::size_t finished) const {
-    const std::lock_guard lock(of_progress_);
+    const std::lock_guard lock(mutex_);
     finished_ = finished;
     const double cases = static_cast<double>(cases_.size()), samples = static_cast<double>(options_.samples);
     const double drawn = static_cast<double>(drawn_) / (cases * samples * (1 + 1.0 / 8)); // with the pilot
@@ -311,7 +260,8 @@ class ValidateJob {
   bool has_begun_ = false;
   std::map<std::size_t, Result> results_; ///< by the number of the case
   std::size_t width_ = 24, printed_ = 0;
-  mutable std::mutex of_progress_;
+  mutable std::mutex mutex_;                             ///< of the progress and of incomplete_
+  mutable std::map<std::size_t, mc::Report> incomplete_; ///< last looks of interrupted cases, by their numbers
   mutable std::atomic<std::uint64_t> drawn_ = 0;
   mutable std::atomic<std::size_t> finished_ = 0;
   mutable ProgressLine progress_;
@@ -353,7 +303,7 @@ void print_summary(const ValidationRun& run, std::size_t asked, std::size_t inco
   std::size_t passed = 0, inconclusive = 0, warned = 0;
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     const mc::Report& r = run.reports[i];
-    passed += r.passed();
+    passed += r.passed() && i + incomplete < run.cases.size();
     inconclusive += r.verdict() == mc::Verdict::inconclusive;
     warned += r.passed() && r.warning();
     if (r.passed() && r.warning()) fmt::print("\n{}\n", r.to_string());
@@ -388,14 +338,12 @@ int report(const ValidateCommandOptions& o, const std::vector<const Case*>& case
   const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                           finished.cases,
                           finished.reports,
-                          finished.cases.size() + finished.unchecked.size() < cases.size() ||
-                              !finished.incomplete.empty(),
+                          finished.cases.size() - finished.incomplete + finished.unchecked.size() < cases.size(),
                           finished.unchecked};
-  print_summary(run, cases.size(), finished.incomplete.size(), o.verbose);
-  for (std::size_t i = 0; i < finished.cases.size(); ++i)
-    if (std::ranges::find(finished.incomplete, finished.cases[i]) != finished.incomplete.end())
-      fmt::print("{}: {} of {} samples were checked\n", finished.cases[i]->title(), finished.reports[i].samples,
-                 o.samples);
+  print_summary(run, cases.size(), finished.incomplete, o.verbose);
+  for (std::size_t i = finished.cases.size() - finished.incomplete; i < finished.cases.size(); ++i)
+    fmt::print("{}: {} after {} of {} samples\n", finished.cases[i]->title(), name(finished.reports[i].verdict()),
+               finished.reports[i].samples, o.samples);
   ResultWriter results;
   if (files.junit.is_wanted()) files.junit.write(results, run.interrupted, validation_junit(run));
   if (files.json.is_wanted()) files.json.write(results, run.interrupted, validation_json(run));

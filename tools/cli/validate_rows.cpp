@@ -66,8 +66,7 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
             &o.detect,
             "Choose the number of samples that catches this relative error of a density with probability 0.99: 0.003 "
             "is 0.3 %. In [0.0001, 1]. From 1e7 samples on, looks of 1e6, 1e7, ... samples come first, each with 5 % "
-            "of "
-            "alpha: a wrong distribution ends the check there, and Ctrl-C keeps the last look.",
+            "of alpha: a wrong distribution ends the check there, and Ctrl-C keeps the last look.",
             false,
             {counted}},
            {"--verbose", "", &o.verbose,
