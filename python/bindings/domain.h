@@ -46,6 +46,7 @@ inline std::string domain_text(const mc::Sphere<double>&) { return "the unit sph
 inline std::string domain_text(const mc::Hemisphere<double>&) { return "the upper unit hemisphere"; }
 inline std::string domain_text(const mc::Cap<double>& d) { return fmt::format("the cap 1 - z <= {:g}", d.h); }
 inline std::string domain_text(const mc::Ball<double>&) { return "the unit ball"; }
+inline std::string domain_text(const mc::UnitQuaternions<double>&) { return "the unit quaternions"; }
 inline std::string domain_text(const mc::Parallelogram<double>&) { return "a parallelogram in space"; }
 template <int N> std::string domain_text(const mc::Patch<double, N>&) { return "directions to a patch"; }
 template <int N> std::string domain_text(const mc::Box<double, N>& d) {

@@ -6,6 +6,7 @@
 #include <mc/warp/disk.h>
 #include <mc/warp/isotropic_normal.h>
 #include <mc/warp/parallelogram.h>
+#include <mc/warp/rotation.h>
 #include <mc/warp/triangle.h>
 #include <mc/warp/uniform.h>
 
@@ -72,6 +73,9 @@ void bind_planes(py::module_& m) {
       .def(py::init(&make_box), arg("lo"), arg("hi"));
   warp_class<mc::UniformBall<double>>(m, "UniformBall").def(py::init([] {
     return make_warp("UniformBall()", mc::UniformBall<double>());
+  }));
+  warp_class<mc::UniformRotation<double>>(m, "UniformRotation").def(py::init([] {
+    return make_warp("UniformRotation()", mc::UniformRotation<double>());
   }));
 }
 

@@ -29,6 +29,7 @@ ALL = [
     warps.UniformBox([0, -1], [1, 1]),
     warps.UniformBox([0, -1, 2], [1, 1, 3]),
     warps.UniformBall(),
+    warps.UniformRotation(),
     warps.UniformSphere(),
     warps.UniformHemisphere(),
     warps.CosineHemisphere(),
