@@ -30,7 +30,7 @@ done | sed 's#^\./##; s#:.*<# #; s#>##' | awk '
         if (!(from[i] in found) && (to[i] ~ /^Eigen\// || to[i] in found)) { found[from[i]]; grew = 1 }
     } while (grew)
     for (header in found) print header
-  }' | sort >"$scratch/with_eigen"
+  }' | sort | comm -12 "$scratch/all" - >"$scratch/with_eigen"
 
 compile() { # ARGUMENTS HEADER
   header=${*: -1}
