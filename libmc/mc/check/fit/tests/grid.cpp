@@ -18,9 +18,11 @@ namespace {
 
 constexpr int number_of_grids = 5;                    // grids with 1, 2, 4, ... bins of the finest joined along an axis
 constexpr PerAxis<std::size_t> finest{4096, 256, 32}; // bins along an axis, by the number of axes
-constexpr double points_of_bin = 4;
+constexpr std::size_t points_of_bin = 4;              // where the density is evaluated
 constexpr double resolved = 0.05;   // variance of an expected count by that of the observed one, at most
 constexpr double cap_over_seen = 4; // largest density that counts, by the largest at the points of a bin
+
+using PointDensities = std::span<const double, points_of_bin>;
 
 std::size_t number_of_bins(std::size_t size, int dim) {
   std::size_t count = 1;
@@ -34,7 +36,8 @@ std::size_t finest_size(const FitSetup& setup) {
   const SubjectOptions& options = setup.options;
   const int dim = setup.subject.dim;
   const double n = static_cast<double>(options.samples), noise = 1 / std::sqrt(n);
-  const double most_bins = std::min(n, static_cast<double>(options.max_evaluations) / (12 * points_of_bin));
+  const double most_bins =
+      std::min(n, static_cast<double>(options.max_evaluations) / static_cast<double>(12 * points_of_bin));
   const double step = mean_step(setup.subject, setup.pilot, noise);
   std::size_t size = finest[static_cast<std::size_t>(dim - 1)];
   while (size > 1 &&
@@ -93,7 +96,8 @@ struct GridsInProgress {
       densities.resize(points.points.size());
       interior_densities(setup.subject, points.points, densities);
       for (std::size_t i = first; i < last; ++i)
-        set(bins[i], points.volumes[i - first], std::span<const double, 4>(&densities[4 * (i - first)], 4), n);
+        set(bins[i], points.volumes[i - first], PointDensities(&densities[points_of_bin * (i - first)], points_of_bin),
+            n);
     }
     if (is_textured()) return bins.clear();
     leave_out_edges();
@@ -105,7 +109,7 @@ struct GridsInProgress {
     for (const Bin& bin : bins) sum += std::min(bin.noise, most_of_bin);
     return !(sum <= resolved * static_cast<double>(bins.size()));
   }
-  static void set(Bin& bin, double volume, std::span<const double, 4> density, double n) {
+  static void set(Bin& bin, double volume, PointDensities density, double n) {
     EstimatedMass mass;
     mass.add_part(volume, density);
     bin.expected = mass.value;

@@ -28,8 +28,8 @@ class SpectrumTest {
   /// Expects the same count in all bins, instead of random points.
   void expect_uniform() { std::fill(expected_.begin(), expected_.end(), 1.0); }
 
-  /// Returns two Checks that spend half of `share` each, both given the sum of the samples; none if the steps leave
-  /// fewer than 8 bins on an axis.
+  /// Returns two Checks that spend half of `share` each, both given the sum of the samples. The second is missing if no
+  /// band has enough independent coefficients; both if the steps leave fewer than 8 bins on an axis.
   ///   waves  : the largest squared Fourier coefficient of observed - expected. Each is exponentially distributed.
   ///   bands  : the mean squared coefficient between K/2 and K periods, K = 2, 4, ..., a chi-square that needs no
   ///            aligned cells. An uneven density correlates neighbouring coefficients, which reduces the degrees of
