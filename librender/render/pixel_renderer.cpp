@@ -4,12 +4,12 @@
 
 namespace render {
 
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
-                                                  const MediumStack&) const;
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
-                                                  const MediumStack&) const;
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
-                                                  const MediumStack&) const;
+template Spectrum PathIntegrator<Scene>::Li(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
+                                            const MediumStack&) const;
+template Spectrum PathIntegrator<Scene>::Li(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
+                                            const MediumStack&) const;
+template Spectrum PathIntegrator<Scene>::Li(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
+                                            const MediumStack&) const;
 
 namespace {
 
@@ -31,15 +31,23 @@ void RenderStats::merge(const RenderStats& other) {
   invalid += other.invalid;
 }
 
+PixelRenderer::AnyIntegrator PixelRenderer::integrator_for(const Scene& scene, const PathOptions& path, const Aov& aov,
+                                                           const LightTracer* light_tracer) {
+  if (aov.kind != Aov::radiance) return AovIntegrator<Scene>(scene, aov);
+  if (light_tracer) return PathIntegrator<Scene, LightPathMis>(scene, path, LightPathMis(*light_tracer));
+  return PathIntegrator<Scene>(scene, path);
+}
+
 PixelRenderer::PixelRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points,
                              const ImageExtent& extent, const std::optional<SplatFilter>& splat,
-                             const LightTracer* light_tracer)
-    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points),
-      extent_(extent), splat_(splat), render_row_(render_row_for(points.sampler)) {}
+                             const LightTracer* light_tracer, const Aov& aov)
+    : scene_(scene), pixel_rays_(scene, extent), integrator_(integrator_for(scene, path, aov, light_tracer)),
+      points_(points), extent_(extent), splat_(splat) {}
 
-template <class Stream>
-RenderStats PixelRenderer::render_row_with(int y, int column, std::span<const std::uint32_t> from,
-                                           std::span<const std::uint32_t> to, FilmBlock& block) const {
+template <class Stream, class Integrator>
+RenderStats PixelRenderer::render_row_with(const Integrator& integrator, int y, int column,
+                                           std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                                           FilmBlock& block) const {
   RenderStats stats;
   std::optional<SplatAccumulator> splat;
   if (splat_) splat.emplace(*splat_);
@@ -59,7 +67,7 @@ RenderStats PixelRenderer::render_row_with(int y, int column, std::span<const st
           Stream stream(points, point);
           const Vec2 offset = drawn.sample(stream.next2());
           const Ray ray = pixel_rays_.sample(image_x, image_y, offset, stream);
-          const Spectrum radiance = integrator_.radiance(ray, stream, stats.rays, pixel_rays_.media(ray));
+          const Spectrum radiance = integrator.Li(ray, stream, stats.rays, pixel_rays_.media(ray));
           ++stats.samples;
           if (!radiance.isFinite().all()) [[unlikely]] {
             stats.add({image_x, image_y, range.pass, point});
@@ -79,12 +87,17 @@ RenderStats PixelRenderer::render_row_with(int y, int column, std::span<const st
   return stats;
 }
 
-// After the definition of the functions that it names: clang 14 does not instantiate functions that only a later lambda
+// After the definition of the function that it calls: clang 14 does not instantiate functions that only a later lambda
 // names.
-PixelRenderer::RenderRow PixelRenderer::render_row_for(PixelSampler sampler) {
-  return with_stream(sampler, []<class Stream>(std::type_identity<Stream>) -> RenderRow {
-    return &PixelRenderer::render_row_with<Stream>;
-  });
+RenderStats PixelRenderer::render_row(int y, int column, std::span<const std::uint32_t> from,
+                                      std::span<const std::uint32_t> to, FilmBlock& block) const {
+  return std::visit(
+      [&](const auto& integrator) {
+        return with_stream(points_.sampler, [&]<class Stream>(std::type_identity<Stream>) {
+          return render_row_with<Stream>(integrator, y, column, from, to, block);
+        });
+      },
+      integrator_);
 }
 
 } // namespace render

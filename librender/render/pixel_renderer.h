@@ -2,20 +2,23 @@
 /// Rendering of pixels.
 
 #include <render/film/splat_accumulator.h>
+#include <render/integrator/aov.h>
+#include <render/integrator/light_path_mis.h>
 #include <render/integrator/path_integrator.h>
 #include <render/pixel_points.h>
 
 #include <span>
+#include <variant>
 
 namespace render {
 
 // Compiled once, in pixel_renderer.cpp: other files that trace paths through a Scene need not instantiate them.
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
-                                                         const MediumStack&) const;
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
-                                                         const MediumStack&) const;
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
-                                                         const MediumStack&) const;
+extern template Spectrum PathIntegrator<Scene>::Li(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
+                                                   const MediumStack&) const;
+extern template Spectrum PathIntegrator<Scene>::Li(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
+                                                   const MediumStack&) const;
+extern template Spectrum PathIntegrator<Scene>::Li(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
+                                                   const MediumStack&) const;
 
 /// Counts of samples and rays.
 struct RenderStats {
@@ -37,9 +40,11 @@ class PixelRenderer {
  public:
   /// Prepares the rendering of a scene, which must outlive this.
   ///   splat        : filter of splatting; none: each sample counts for one pixel.
-  ///   light_tracer : as for PathIntegrator.
+  ///   light_tracer : traces the light paths of the image; null: no light paths.
+  ///   aov          : quantity to render; the other options apply to radiance.
   PixelRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
-                const std::optional<SplatFilter>& splat = {}, const LightTracer* light_tracer = nullptr);
+                const std::optional<SplatFilter>& splat = {}, const LightTracer* light_tracer = nullptr,
+                const Aov& aov = {});
 
   /// Width of the border around the film with samples that count for its pixels [pixels].
   int border() const { return splat_ ? splat_->reach() : 0; }
@@ -47,25 +52,22 @@ class PixelRenderer {
   /// Adds the samples [from[i], to[i]) of the pixels (column + i, y) of the film to a block. Pixels may lie in the
   /// border. Samples that are not finite are left out and counted.
   RenderStats render_row(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                         FilmBlock& block) const {
-    return (this->*render_row_)(y, column, from, to, block);
-  }
+                         FilmBlock& block) const;
 
  private:
-  using RenderRow = RenderStats (PixelRenderer::*)(int, int, std::span<const std::uint32_t>,
-                                                   std::span<const std::uint32_t>, FilmBlock&) const;
-  template <class Stream>
-  RenderStats render_row_with(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                              FilmBlock& block) const;
-  static RenderRow render_row_for(PixelSampler sampler);
+  using AnyIntegrator = std::variant<PathIntegrator<Scene>, PathIntegrator<Scene, LightPathMis>, AovIntegrator<Scene>>;
+  static AnyIntegrator integrator_for(const Scene& scene, const PathOptions& path, const Aov& aov,
+                                      const LightTracer* light_tracer);
+  template <class Stream, class Integrator>
+  RenderStats render_row_with(const Integrator& integrator, int y, int column, std::span<const std::uint32_t> from,
+                              std::span<const std::uint32_t> to, FilmBlock& block) const;
 
   const Scene& scene_;
   PixelRays pixel_rays_;
-  PathIntegrator<Scene> integrator_;
+  AnyIntegrator integrator_;
   PixelPoints points_;
   ImageExtent extent_;
   std::optional<SplatFilter> splat_;
-  RenderRow render_row_;
 };
 
 } // namespace render

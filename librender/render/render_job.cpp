@@ -30,6 +30,8 @@ void check(const Scene& scene, const RenderOptions& options) {
   mc::require(!options.tiles || !options.splat,
               "render: tiles and splats both share samples between pixels, and the error bar allows for one of "
               "them; leave out one");
+  mc::require(!options.tiles || options.aov.kind == Aov::radiance,
+              "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
   mc::require(options.branches >= 1 && options.branches <= max_branches,
@@ -146,8 +148,8 @@ RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
     : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(checked(scene, options), options)),
       light_tracer_(light_tracer_for(scene, options)),
       points_(options.sampler, options.seed, set_size_of(options)), path_{options.strategy, options.max_depth,
-                                                                          options.aov, options.branches},
-      pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer()),
+                                                                          options.branches},
+      pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer(), options.aov),
       row_order_(row_order(extent_.crop, border())), film_(checked_film()), taken_(width() * height()),
       next_taken_(taken_.size()), is_pilot_(is_adaptive(options)) {
   if (options.tiles) tile_renderer_.emplace(scene, path_, points_, extent_, light_tracer());

@@ -12,8 +12,7 @@ namespace render {
 class TileRenderer {
  public:
   /// Prepares the rendering of a scene, which must outlive this.
-  ///   light_tracer : as for PathIntegrator.
-  ///   throws       : Error if path.aov is not radiance.
+  ///   light_tracer : as for PixelRenderer.
   TileRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
                const LightTracer* light_tracer = nullptr);
 
@@ -27,9 +26,7 @@ class TileRenderer {
   /// a tile whose first column is column + i have the samples [from[i], to[i]). Samples that are not finite are left
   /// out and counted.
   RenderStats render_row(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                         FilmBlock& block) const {
-    return (this->*render_row_)(y, column, from, to, block);
-  }
+                         FilmBlock& block) const;
 
  private:
   static constexpr int side = PathReuseIntegrator<Scene>::side;
@@ -44,23 +41,23 @@ class TileRenderer {
     std::uint32_t valid = 0;                     ///< Number of finite samples in the current set
   };
 
-  using RenderRow = RenderStats (TileRenderer::*)(int, int, std::span<const std::uint32_t>,
-                                                  std::span<const std::uint32_t>, FilmBlock&) const;
-  template <class Stream>
-  RenderStats render_row_with(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                              FilmBlock& block) const;
-  template <class Stream>
-  void render_tile(int left, int top, std::uint32_t from, std::uint32_t to, FilmBlock& block, RenderStats& stats) const;
-  template <class Stream>
-  void render_range(const PixelPoints::PointRange& range, std::array<Pixel, pixels>& tile, RenderStats& stats) const;
-  static RenderRow render_row_for(PixelSampler sampler);
+  using AnyIntegrator = std::variant<PathReuseIntegrator<Scene>, PathReuseIntegrator<Scene, LightPathMis>>;
+  static AnyIntegrator integrator_for(const Scene& scene, const PathOptions& path, const LightTracer* light_tracer);
+  template <class Stream, class Integrator>
+  RenderStats render_row_with(const Integrator& integrator, int y, int column, std::span<const std::uint32_t> from,
+                              std::span<const std::uint32_t> to, FilmBlock& block) const;
+  template <class Stream, class Integrator>
+  void render_tile(const Integrator& integrator, int left, int top, std::uint32_t from, std::uint32_t to,
+                   FilmBlock& block, RenderStats& stats) const;
+  template <class Stream, class Integrator>
+  void render_range(const Integrator& integrator, const PixelPoints::PointRange& range, std::array<Pixel, pixels>& tile,
+                    RenderStats& stats) const;
 
   const Scene& scene_;
   PixelRays pixel_rays_;
-  PathReuseIntegrator<Scene> integrator_;
+  AnyIntegrator integrator_;
   PixelPoints points_;
   ImageExtent extent_;
-  RenderRow render_row_;
 };
 
 } // namespace render

@@ -221,7 +221,7 @@ TEST(Extremes, AClosedCubeIsDarkInside) {
     for (std::uint32_t i = 0; i < 20'000; ++i) {
       mc::IndependentPathStream<Float> stream(numbers, i);
       const Vec3 d = mc::UniformSphere<Float>{}.sample(stream.next2());
-      ASSERT_TRUE(is_black(integrator.radiance({eye, d}, stream, rays))) << "moved by " << distance << ", path " << i;
+      ASSERT_TRUE(is_black(integrator.Li({eye, d}, stream, rays))) << "moved by " << distance << ", path " << i;
     }
   }
 }
@@ -244,7 +244,7 @@ TEST_F(FarCube, IsDarkInside) {
     for (std::uint32_t i = 0; i < 2'000; ++i) {
       mc::IndependentPathStream<Float> stream(numbers, i);
       const Ray ray = scene.camera().ray(stream.next2(), scene.camera().tan_half(1), Vec2(0, 0));
-      ASSERT_TRUE(is_black(integrator.radiance(ray, stream, rays))) << "moved by " << distance << ", path " << i;
+      ASSERT_TRUE(is_black(integrator.Li(ray, stream, rays))) << "moved by " << distance << ", path " << i;
     }
   }
 }

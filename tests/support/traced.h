@@ -9,20 +9,31 @@
 
 namespace support {
 
-/// Moments of the radiance of n independent paths in one channel. No path may give an invalid value.
-template <class Scene>
-mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::PathOptions& options, int n,
-                   int channel = 0) {
-  const render::PathIntegrator<Scene> integrator(scene, options);
+/// Moments of n independent samples of an integrator in one channel. No sample may be invalid.
+template <class Integrator>
+mc::Moments samples_of(const Integrator& integrator, const render::Ray& ray, int n, int channel) {
   const mc::IndependentPairs numbers(2026, 0);
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (int i = 0; i < n; ++i) {
     mc::IndependentPathStream<render::Float> stream(numbers, std::uint32_t(i));
-    moments.add(double(integrator.radiance(ray, stream, rays)[channel]), std::uint64_t(i));
+    moments.add(double(integrator.Li(ray, stream, rays)[channel]), std::uint64_t(i));
   }
   EXPECT_EQ(moments.non_finite_count(), 0u);
   return moments;
+}
+
+/// Moments of the radiance.
+template <class Scene>
+mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::PathOptions& options, int n,
+                   int channel = 0) {
+  return samples_of(render::PathIntegrator<Scene>(scene, options), ray, n, channel);
+}
+
+/// Moments of another quantity.
+template <class Scene>
+mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::Aov& aov, int n, int channel = 0) {
+  return samples_of(render::AovIntegrator<Scene>(scene, aov), ray, n, channel);
 }
 
 } // namespace support

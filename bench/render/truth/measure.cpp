@@ -40,7 +40,7 @@ Measured measure_with(const Picture& picture, const PathOptions& path, std::uint
   std::uint64_t rays = 0;
   return of_sets<Stream>(seed, sets, points, [&](const auto& numbers, std::uint32_t i, std::uint64_t) {
     Stream stream(numbers, i);
-    return integrator.radiance(picture.ray, stream, rays)[0];
+    return integrator.Li(picture.ray, stream, rays)[0];
   });
 }
 

@@ -13,6 +13,14 @@
 #include <optional>
 #include <vector>
 
+// g++ stops inlining if a file instantiates three stream types, and calls of a few instructions are then costly. Debug
+// and sanitizer builds leave flatten out, since it makes them very slow to compile.
+#if defined(NDEBUG)
+#define RENDER_FLAT [[gnu::flatten]]
+#else
+#define RENDER_FLAT
+#endif
+
 namespace render {
 
 /// A path vertex with a BSDF of type B.
@@ -79,7 +87,7 @@ class DirectionMixture {
 
   /// Samples a direction. Returns nothing if the sample is absorbed or rejected by same_geometric_side().
   template <class B, class Stream>
-  std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
+  RENDER_FLAT std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
     if (!target_distribution_ || isect.bsdf.is_near_specular()) return sample_bsdf(isect, stream);
     const Vec2 u = stream.next2(); // u[0] also selects the part of the mixture, so that the selection is stratified
     const auto part = guiding_choice(isect).sample_index(u[0]);

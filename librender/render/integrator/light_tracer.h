@@ -231,9 +231,7 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
     subpath.media = initial_media(*scene_, subpath.ray);
   while (max_depth < 0 || subpath.edges + 1 < max_depth) {
     ++subpath.edges;
-    const auto hit = nearest_hit(*scene_, subpath.ray, rays, [&](Float opacity) {
-      return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
-    });
+    const auto hit = sample_nearest_hit(*scene_, subpath.ray, stream, rays);
     if (!hit) return;
     const Surface& surface = scene_->surface(*hit);
     const SurfacePoint point = surface.shape->surface_point(subpath.ray, *hit);

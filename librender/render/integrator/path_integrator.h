@@ -1,8 +1,9 @@
 #pragma once
 /// Path tracing from the camera.
 
-#include <render/film/image.h>
-#include <render/integrator/path_steps.h>
+#include <render/integrator/direct_lighting.h>
+
+#include <mc/estimate/russian_roulette.h>
 
 namespace render {
 
@@ -10,15 +11,49 @@ namespace render {
 struct PathOptions {
   Strategy strategy = strategy_from("mis"); ///< How paths find light.
   int max_depth = -1;                       ///< Largest number of edges (1: only directly visible light); -1: no limit.
-  /// The quantity to render.
-  Aov aov = Aov::radiance;
-  int branches = 2; ///< Number of branches at the first non-delta vertex.
+  int branches = 2;                         ///< Number of branches at the first non-delta vertex.
+};
+
+/// Light that a path finds.
+struct RadianceContribution {
+  Spectrum value;       ///< Contribution if no light path can find it.
+  double mis_ratio = 0; ///< Squared density of light paths over the squared density of this technique; 0: none find it.
+
+  /// The contribution with its MIS weight against light paths.
+  Spectrum weighted() const { return mis_ratio == 0 ? value : Spectrum(value * Float(1 / (1 + mis_ratio))); }
+};
+
+/// Policy of a PathIntegrator whose paths compete with no light paths: all ratios are 0. LightPathMis is the other
+/// policy, and documents the functions.
+struct NoLightPaths {
+  /// No state along a path.
+  struct PartialWeight {};
+  template <class SceneType> DirectionMixture directions(const SceneType& scene, const Strategy& strategy) const {
+    return {scene, strategy};
+  }
+  PartialWeight start(const Vec3&) const { return {}; }
+  void arrive(PartialWeight&, int, const Vec3&, const Vec3&, const SurfacePoint&) const {}
+  void escape(PartialWeight&) const {}
+  template <class Interaction> void scatter(PartialWeight&, int, const Interaction&, const Vec3&, Float, Float) const {}
+  double emission_ratio(const PartialWeight&, int, std::uint32_t, const SurfacePoint*, const Vec3&, const Vec3&) const {
+    return 0;
+  }
+  template <class Interaction>
+  double direct_ratio(const PartialWeight&, int, const Interaction&, const LightConnection&) const {
+    return 0;
+  }
+  template <class Interaction>
+  double reconnection_ratio(const PartialWeight&, int, const Interaction&, const SurfacePoint&, const Vec3&,
+                            Float) const {
+    return 0;
+  }
 };
 
 /// Path tracer: estimates the radiance along camera rays as the strategy says. The scene must outlive it. Immutable, so
 /// threads can share it.
 ///   Unsampled lights : lights without is_sampled() are found by hits alone and count fully, in every strategy.
-///   Light paths : with a LightTracer, contributions carry MIS weights against light paths, which the caller traces.
+///   Light paths : with the policy LightPathMis, contributions carry MIS weights against light paths, which the caller
+///                 traces.
 ///   Caustics    : connections to lights cannot find them. `mis` aims up to a quarter of its directions at spheres of
 ///                 glass or mirror.
 ///   Splitting   : a path splits at its first non-delta vertex, by default in two. The path to this vertex and the
@@ -27,73 +62,223 @@ struct PathOptions {
 ///                 The factor 4 balances variance against cost. g is the guiding pdf ratio since the last rough vertex.
 ///                 Without g, paths toward a small lamp would rarely survive: their throughput is as small as the lamp.
 /// See docs/methods/path-tracing.md and docs/methods/russian-roulette.md.
-template <class SceneType> class PathIntegrator {
+template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
  public:
-  /// Prepares path tracing of a scene.
-  ///   light_tracer : traces light paths of the same scene and must outlive this; null: no light paths.
-  PathIntegrator(const SceneType& scene, const PathOptions& options, const LightTracer* light_tracer = nullptr)
-      : steps_(scene, options.strategy, options.max_depth, light_tracer), aov_(options.aov),
-        branches_(options.branches) {}
+  /// The scene's BSDF type.
+  using BsdfType = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
+  /// A vertex with its BSDF, frame and media.
+  using Interaction = SurfaceInteraction<BsdfType>;
 
-  /// Estimates the radiance that arrives along `ray`, or the AOV, with one sample. `rays` counts the rays traced.
+  /// State carried along a camera path.
+  struct PathState {
+    Ray ray;                          ///< Next ray to trace.
+    Vec3 previous_point;              ///< Previous vertex, or the origin on the camera.
+    Spectrum beta = Spectrum::Ones(); ///< Throughput: factor of the light found next.
+    /// Density [1/sr] of the last direction; 0 at the camera and after a near-specular lobe, which light sampling
+    /// cannot replace.
+    Float previous_pdf = 0;
+    /// Squared index ratio; times beta it is the importance for roulette, without the compression of radiance in glass.
+    Float eta_scale = 1;
+    /// Density of the directions since the last rough vertex over the density of pure BSDF sampling.
+    Float guiding_pdf_ratio = 1;
+    int edges = 0;          ///< Number of edges so far.
+    MediumStack media = {}; ///< Media along the ray.
+    /// Ratio of light paths to this path.
+    [[no_unique_address]] typename LightMis::PartialWeight partial_mis = {};
+  };
+
+  /// The end of an edge: a point on a surface, or nothing. Not copyable: it may own the BSDF that it points to.
+  struct Vertex {
+    Vertex() = default;
+    Vertex(const Vertex&) = delete;
+    Vertex& operator=(const Vertex&) = delete;
+
+    /// Position and normals.
+    SurfacePoint point;
+    /// The surface; null if the edge leaves the scene.
+    const Surface* surface = nullptr;
+    /// The BSDF: the scene's, or bsdf_storage.
+    const BsdfType* bsdf = nullptr;
+    std::optional<Bsdf> bsdf_storage; ///< The BSDF if a texture varies it.
+
+    /// The vertex with its shading frame, for a path that arrives by state.ray.
+    Interaction interaction(const PathState& state) const {
+      const auto frame = mc::Frame<Float>::from_z(point.ns);
+      return {{*bsdf, point, frame, frame.to_local(-state.ray.d)}, *surface, state.media};
+    }
+  };
+
+  /// Prepares path tracing of a scene.
+  ///   light_mis : weights against light paths of the same scene.
+  explicit PathIntegrator(const SceneType& scene, const PathOptions& options = {}, const LightMis& light_mis = {})
+      : scene_(scene), direct_lighting_(options.strategy.direct_lighting), max_depth_(options.max_depth),
+        branches_(options.branches), light_mis_(light_mis),
+        direction_mixture_(light_mis_.directions(scene, options.strategy)) {}
+
+  /// Estimates the radiance that arrives along `ray`, with one sample. `rays` counts the rays traced.
   ///   media : media at the origin of the ray.
   template <class Stream>
-  Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays, const MediumStack& media = {}) const;
+  Spectrum Li(const Ray& ray, Stream& stream, std::uint64_t& rays, const MediumStack& media = {}) const {
+    Spectrum L = Spectrum::Zero();
+    PathState state = start_path(ray, media);
+    trace(state, true, stream, rays, [&](const RadianceContribution& light) { L += light.weighted(); });
+    return L;
+  }
+
+  /// Traces a path to its end and passes the light that it finds to `add_radiance`.
+  ///   splits : whether the path splits at its first non-delta vertex.
+  template <class Stream, class AddRadiance>
+  void trace(PathState& state, bool splits, Stream& stream, std::uint64_t& rays,
+             const AddRadiance& add_radiance) const {
+    Vertex vertex;
+    for (;;) {
+      if (!state.beta.isFinite().all()) [[unlikely]]
+        return add_radiance(RadianceContribution{state.beta}); // the caller counts an invalid sample
+      // Find the next vertex, and add its emission with its MIS weight.
+      const bool scatters = intersect(state, vertex, stream, rays);
+      add_emission(state, vertex, add_radiance);
+      if (!scatters) return;
+      const Interaction isect = vertex.interaction(state);
+      if (!isect.bsdf.is_delta()) {
+        add_direct(state, isect, stream, rays, add_radiance);
+        if (splits) return add_radiance(RadianceContribution{trace_branches(state, isect, stream, rays)});
+      }
+      if (!sample_bsdf(state, isect, stream) || !russian_roulette(state, stream)) return;
+    }
+  }
+
+  // Building blocks of trace(), which path reuse combines in another way.
+
+  /// Starts a path with a camera ray.
+  ///   media : media at the origin of the ray, and in the space before the near plane.
+  PathState start_path(const Ray& ray, const MediumStack& media) const {
+    PathState state{ray, ray.o - scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d};
+    state.media = media;
+    state.partial_mis = light_mis_.start(ray.d);
+    return state;
+  }
+
+  /// Traces an edge to the next vertex. Returns false if the path ends there.
+  template <class Stream> bool intersect(PathState& state, Vertex& vertex, Stream& stream, std::uint64_t& rays) const {
+    ++state.edges;
+    const auto hit = sample_nearest_hit(scene_, state.ray, stream, rays);
+    if (!hit) {
+      vertex.surface = nullptr;
+      if (state.media.current) [[unlikely]]
+        state.beta *= state.media.current->transmittance(mc::infinity<Float>);
+      light_mis_.escape(state.partial_mis);
+      return false;
+    }
+    vertex.surface = &scene_.surface(*hit);
+    vertex.point = vertex.surface->shape->surface_point(state.ray, *hit);
+    if (state.media.current) [[unlikely]]
+      state.beta *= state.media.current->transmittance((vertex.point.p - state.previous_point).norm());
+    light_mis_.arrive(state.partial_mis, state.edges, state.previous_point, state.ray.d, vertex.point);
+    if (state.edges == max_depth_) return false;
+    vertex.bsdf = &scene_.bsdf(*vertex.surface, *hit, vertex.point, vertex.bsdf_storage);
+    return true;
+  }
+
+  /// Passes the emission at the end of the last edge to `add_radiance`.
+  template <class AddRadiance>
+  void add_emission(const PathState& state, const Vertex& vertex, const AddRadiance& add_radiance) const {
+    if (!vertex.surface) {
+      for (const std::uint32_t light : scene_.infinite_lights())
+        add_radiance(emitted_contribution(light, nullptr, state));
+    } else if (vertex.surface->light) {
+      add_radiance(emitted_contribution(*vertex.surface->light, &vertex.point, state));
+    }
+  }
+
+  /// Passes the direct lighting of a vertex to `add_radiance` (next-event estimation).
+  template <class Stream, class AddRadiance>
+  void add_direct(const PathState& state, const Interaction& isect, Stream& stream, std::uint64_t& rays,
+                  const AddRadiance& add_radiance) const {
+    if (direct_lighting_ == DirectLighting::bsdf_only || !scene_.has_light_sampler()) return;
+    const auto light = connect_to_light(scene_, direct_lighting_, direction_mixture_, isect, stream, rays);
+    if (!light) return;
+    add_radiance(RadianceContribution{state.beta * light->value,
+                                      double(light->mis_weight) *
+                                          light_mis_.direct_ratio(state.partial_mis, state.edges, isect, *light)});
+  }
+
+  /// Samples the next direction. Returns false if the path is absorbed.
+  template <class Stream> bool sample_bsdf(PathState& state, const Interaction& isect, Stream& stream) const {
+    const auto next = direction_mixture_.sample(isect, stream);
+    if (!next) return false;
+    state.beta *= next->weight;
+    state.previous_pdf = next->pdf;
+    state.eta_scale *= mc::sqr(next->eta);
+    state.guiding_pdf_ratio =
+        next->pdf > 0 ? next->guiding_pdf_ratio : state.guiding_pdf_ratio * next->guiding_pdf_ratio;
+    if (is_black(state.beta)) return false;
+    light_mis_.scatter(state.partial_mis, state.edges, isect, next->d, next->pdf, next->eta);
+    state.previous_point = isect.point.p;
+    state.ray = isect.point.spawn_ray(next->d);
+    state.media = isect.media(next->d);
+    return true;
+  }
+
+  /// Russian roulette. Returns whether the path survives, and scales its throughput.
+  template <class Stream> static bool russian_roulette(PathState& state, Stream& stream) {
+    if (state.edges < 4 || !state.beta.isFinite().all()) return true; // roulette would hide an invalid path
+    const Float survival =
+        std::clamp(std::max(Float(4), state.guiding_pdf_ratio) * state.beta.maxCoeff() * state.eta_scale,
+                   std::numeric_limits<Float>::min(), Float(0.99));
+    const auto roulette = mc::russian_roulette<Float>(survival, stream.next());
+    state.beta *= roulette.weight;
+    return roulette.survives;
+  }
+
+  /// The scene.
+  const SceneType& scene() const { return scene_; }
+  /// Direction sampling of the strategy.
+  const DirectionMixture& direction_mixture() const { return direction_mixture_; }
+  /// Weights against light paths.
+  const LightMis& light_mis() const { return light_mis_; }
 
  private:
-  // The shading normal n at the ray's hit as the colour (n + 1) / 2; the radiance of infinite lights if there is no
-  // hit.
-  template <class Stream> Spectrum normal(Ray ray, Stream& stream, std::uint64_t& rays) const {
-    if (const auto hit = steps_.nearest_hit(ray, stream, rays))
-      return (steps_.scene().surface(*hit).shape->surface_point(ray, *hit).ns.array() + 1) / 2;
-    Spectrum radiance = Spectrum::Zero();
-    for (const std::uint32_t light : steps_.scene().infinite_lights())
-      radiance += steps_.scene().lights()[light].Le(ray.d, nullptr);
-    return radiance;
+  // Mean over several branches of the light that a path finds beyond `isect`.
+  template <class Stream>
+  Spectrum trace_branches(const PathState& state, const Interaction& isect, Stream& stream, std::uint64_t& rays) const {
+    const auto [copies, weight] = mc::split<Float>(Float(branches_), 0);
+    Spectrum sum = Spectrum::Zero();
+    for (std::uint32_t i = 0; i < copies; ++i) {
+      PathState own = state;
+      Stream numbers = stream.branch(i, copies);
+      Spectrum branch = Spectrum::Zero();
+      const auto add_to_branch = [&](const RadianceContribution& light) { branch += light.weighted(); };
+      if (sample_bsdf(own, isect, numbers) && russian_roulette(own, numbers))
+        trace(own, false, numbers, rays, add_to_branch);
+      sum += branch;
+    }
+    return sum * weight;
   }
 
-  // Visibility along one cosine-distributed direction at the ray's hit; 1 if there is no hit.
-  template <class Stream> Spectrum ambient_occlusion(Ray ray, Stream& stream, std::uint64_t& rays) const {
-    const auto hit = steps_.nearest_hit(ray, stream, rays);
-    if (!hit) return Spectrum::Ones();
-    const SurfacePoint point = steps_.scene().surface(*hit).shape->surface_point(ray, *hit);
-    const auto frame = mc::Frame<Float>::from_z(point.ns.dot(ray.d) < 0 ? point.ns : Vec3(-point.ns));
-    const Vec3 d = frame.to_world(mc::CosineHemisphere<Float>{}.sample(stream.next2()));
-    if (d.dot(point.ng) * ray.d.dot(point.ng) >= 0) return Spectrum::Zero(); // below the geometric surface
-    Ray shadow = point.spawn_ray(d);
-    shadow.t_max = Float(aov_.max_distance);
-    return Spectrum::Constant(shadow_transmittance(steps_.scene(), shadow, {}, rays));
+  // Emission at the end of the last edge, with its MIS weight.
+  RadianceContribution emitted_contribution(std::uint32_t light, const SurfacePoint* light_point,
+                                            const PathState& state) const {
+    const Light& source = scene_.lights()[light];
+    const Spectrum Le = source.Le(state.ray.d, light_point);
+    if (is_black(Le) || direct_lighting_ == DirectLighting::bsdf_only || !source.is_sampled()) return {state.beta * Le};
+    Float weight = 1;
+    if (state.previous_pdf > 0) {
+      if (direct_lighting_ == DirectLighting::nee) return {Spectrum::Zero()};
+      const Float other =
+          scene_.light_pmf(state.previous_point, light) * source.pdf(state.previous_point, state.ray.d, light_point);
+      weight = mc::power_heuristic(state.previous_pdf, other);
+    }
+    return {state.beta * (Le * weight),
+            double(weight) * light_mis_.emission_ratio(state.partial_mis, state.edges, light, light_point,
+                                                       state.previous_point, state.ray.d)};
   }
 
-  PathSteps<SceneType> steps_;
-  Aov aov_;
+  const SceneType& scene_;
+  DirectLighting direct_lighting_;
+  int max_depth_;
   int branches_;
+  [[no_unique_address]] LightMis light_mis_;
+  DirectionMixture direction_mixture_;
 };
-
-template <class SceneType>
-template <class Stream>
-Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays,
-                                             const MediumStack& media) const {
-  if (aov_.kind == Aov::normals) return normal(ray, stream, rays);
-  if (aov_.kind == Aov::ambient_occlusion) return ambient_occlusion(ray, stream, rays);
-  Spectrum radiance = Spectrum::Zero();
-  const auto add_radiance = [&](const RadianceContribution& light) { radiance += light.weighted(); };
-  PathState state = steps_.start_path(ray, media);
-  typename PathSteps<SceneType>::PathVertex vertex;
-  if (!steps_.skip_delta_bounces(state, vertex, stream, rays, add_radiance)) return radiance;
-  const auto isect = vertex.interaction(state);
-  steps_.sample_direct(isect, state, stream, rays, add_radiance);
-  const auto [copies, weight] = mc::split<Float>(Float(branches_), 0);
-  Spectrum branches = Spectrum::Zero();
-  for (std::uint32_t i = 0; i < copies; ++i) {
-    PathState own = state;
-    Stream numbers = stream.branch(i, copies);
-    Spectrum branch = Spectrum::Zero();
-    const auto add_to_branch = [&](const RadianceContribution& light) { branch += light.weighted(); };
-    if (steps_.scatter(isect, own, numbers)) steps_.trace_remaining(own, numbers, rays, add_to_branch);
-    branches += branch;
-  }
-  return radiance + branches * weight;
-}
 
 } // namespace render

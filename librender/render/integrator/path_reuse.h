@@ -29,7 +29,7 @@ template <class Stream> struct CameraRay {
 ///   Gain   : see docs/methods/path-reuse.md and notebooks-data/adaptive/spp64.csv. It is lost where neighbouring
 ///            pixels show different objects.
 ///   Source : [BekaertSbertHalton02]; balance heuristic [Veach97] section 9.2.
-template <class SceneType> class PathReuseIntegrator {
+template <class SceneType, class LightMis = NoLightPaths> class PathReuseIntegrator {
  public:
   /// Width and height of a tile [pixels].
   static constexpr int side = 2;
@@ -39,26 +39,24 @@ template <class SceneType> class PathReuseIntegrator {
   static constexpr double noise_area = pixels;
 
   /// Prepares path tracing of a scene.
-  ///   light_tracer : as for PathIntegrator.
-  ///   throws       : Error if options.aov is not radiance.
-  PathReuseIntegrator(const SceneType& scene, const PathOptions& options, const LightTracer* light_tracer = nullptr)
-      : steps_(scene, options.strategy, options.max_depth, light_tracer) {
-    mc::require(options.aov.kind == Aov::radiance,
-                "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
-  }
+  ///   options, light_mis : as for PathIntegrator; paths do not split.
+  PathReuseIntegrator(const SceneType& scene, const PathOptions& options, const LightMis& light_mis = {})
+      : paths_(scene, options, light_mis) {}
 
   /// Estimates the radiance along the rays of a tile's pixels, with one sample each. `rays` counts the rays traced.
   template <class Stream>
   std::array<Spectrum, pixels> radiances(std::array<CameraRay<Stream>, pixels>& tile, std::uint64_t& rays) const;
 
  private:
-  using Steps = PathSteps<SceneType>;
+  using Paths = PathIntegrator<SceneType, LightMis>;
+  using PathState = typename Paths::PathState;
+  using Vertex = typename Paths::Vertex;
   using Radiances = std::array<Spectrum, pixels>;
 
   /// First non-delta vertex of a pixel's path.
   struct ForkVertex {
     PathState state;
-    typename Steps::PathVertex vertex;
+    Vertex vertex;
     bool reached = false;
   };
   using Forks = std::array<ForkVertex, pixels>;
@@ -87,6 +85,40 @@ template <class SceneType> class PathReuseIntegrator {
     double mis_ratio; ///< Squared density ratio of light paths, up to a factor common to all forks.
   };
 
+  // Traces a path to its next vertex. Returns false if the path ends.
+  template <class Stream, class AddRadiance>
+  bool next_vertex(PathState& state, Vertex& vertex, Stream& stream, std::uint64_t& rays,
+                   const AddRadiance& add_radiance) const {
+    if (!state.beta.isFinite().all()) [[unlikely]] {
+      add_radiance(RadianceContribution{state.beta}); // the caller counts an invalid sample
+      return false;
+    }
+    const bool scatters = paths_.intersect(state, vertex, stream, rays);
+    paths_.add_emission(state, vertex, add_radiance);
+    return scatters;
+  }
+
+  // Continues a path beyond a vertex, to its end.
+  template <class Stream, class AddRadiance>
+  void trace_on(PathState& state, const Vertex& vertex, Stream& stream, std::uint64_t& rays,
+                const AddRadiance& add_radiance) const {
+    const auto isect = vertex.interaction(state);
+    if (!isect.bsdf.is_delta()) paths_.add_direct(state, isect, stream, rays, add_radiance);
+    if (paths_.sample_bsdf(state, isect, stream) && Paths::russian_roulette(state, stream))
+      paths_.trace(state, false, stream, rays, add_radiance);
+  }
+
+  // Follows a path to its first non-delta vertex. Returns false if the path ends before.
+  template <class Stream, class AddRadiance>
+  bool reach_fork(ForkVertex& fork, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
+    while (next_vertex(fork.state, fork.vertex, stream, rays, add_radiance)) {
+      if (!fork.vertex.bsdf->is_delta()) return true;
+      const auto isect = fork.vertex.interaction(fork.state);
+      if (!paths_.sample_bsdf(fork.state, isect, stream) || !Paths::russian_roulette(fork.state, stream)) return false;
+    }
+    return false;
+  }
+
   template <class Stream, class AddRadiance>
   std::optional<SharedVertex> extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
                                                       std::uint64_t& rays, const AddRadiance& add_radiance) const;
@@ -97,37 +129,41 @@ template <class SceneType> class PathReuseIntegrator {
   // Adds the light of a shared vertex to every pixel that can connect to it.
   void distribute(const SharedVertex& shared, const Forks& forks, std::uint64_t& rays, Radiances& radiances) const;
 
-  Steps steps_;
+  // Squared density ratio of light paths if the path of a fork continued to `shared`; see reconnection_ratio().
+  double mis_ratio(const ForkVertex& fork, const typename Paths::Interaction& isect, const SharedVertex& shared,
+                   const Vec3& d, Float pdf) const {
+    return paths_.light_mis().reconnection_ratio(fork.state.partial_mis, fork.state.edges, isect, shared.point, d, pdf);
+  }
+
+  Paths paths_;
 };
 
 /// Traces a path beyond its fork. Returns its next vertex if it can be shared; adds all other light to the pixel.
-template <class SceneType>
+template <class SceneType, class LightMis>
 template <class Stream, class AddRadiance>
-auto PathReuseIntegrator<SceneType>::extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
-                                                             std::uint64_t& rays, const AddRadiance& add_radiance) const
+auto PathReuseIntegrator<SceneType, LightMis>::extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork,
+                                                                       Stream& stream, std::uint64_t& rays,
+                                                                       const AddRadiance& add_radiance) const
     -> std::optional<SharedVertex> {
   PathState state = fork.state;
-  typename Steps::PathVertex vertex;
-  if (!steps_.sample_bsdf(fork.vertex.interaction(state), state, stream)) return {};
-  if (!steps_.intersect_next(state, vertex, stream, rays, add_radiance)) return {};
-  const auto isect = vertex.interaction(state);
-  if (state.previous_pdf == 0 || !isect.bsdf.is_diffuse()) {
-    if (steps_.shade_and_scatter(isect, state, stream, rays, add_radiance))
-      steps_.trace_remaining(state, stream, rays, add_radiance);
+  Vertex vertex;
+  if (!paths_.sample_bsdf(state, fork.vertex.interaction(state), stream)) return {};
+  if (!next_vertex(state, vertex, stream, rays, add_radiance)) return {};
+  if (state.previous_pdf == 0 || !vertex.bsdf->is_diffuse()) {
+    trace_on(state, vertex, stream, rays, add_radiance);
     return {};
   }
   SharedVertex shared{owner, vertex.point, state.ray.d, state.previous_pdf};
-  const auto add_to_shared = [&](const RadianceContribution& light) { shared.add(light); };
   state.eta_scale *= state.beta.maxCoeff();
   state.beta = Spectrum::Ones();
-  if (steps_.shade_and_scatter(isect, state, stream, rays, add_to_shared))
-    steps_.trace_remaining(state, stream, rays, add_to_shared);
+  trace_on(state, vertex, stream, rays, [&](const RadianceContribution& light) { shared.add(light); });
   return shared.is_dark() ? std::nullopt : std::optional(std::move(shared));
 }
 
-template <class SceneType>
-auto PathReuseIntegrator<SceneType>::reconnect(const ForkVertex& fork, const SharedVertex& shared, bool is_owner,
-                                               std::uint64_t& rays) const -> std::optional<Reconnection> {
+template <class SceneType, class LightMis>
+auto PathReuseIntegrator<SceneType, LightMis>::reconnect(const ForkVertex& fork, const SharedVertex& shared,
+                                                         bool is_owner, std::uint64_t& rays) const
+    -> std::optional<Reconnection> {
   const auto isect = fork.vertex.interaction(fork.state);
   if (isect.bsdf.is_near_specular()) return {};
   const Vec3d way = shared.point.p.template cast<double>() - isect.point.p.template cast<double>();
@@ -139,24 +175,24 @@ auto PathReuseIntegrator<SceneType>::reconnect(const ForkVertex& fork, const Sha
   const Vec3 wi = isect.frame.to_local(d);
   if (!same_geometric_side(isect, wi, d)) return {};
   Spectrum f = fork.state.beta * isect.bsdf.eval(isect.wo, wi);
-  const Float pdf = is_owner ? shared.pdf : steps_.direction_mixture().pdf(isect, wi, d);
+  const Float pdf = is_owner ? shared.pdf : paths_.direction_mixture().pdf(isect, wi, d);
   if (is_black(f) || !(pdf > 0)) return {}; // its path could not have sampled y
   Float transmittance = 1;
-  if (!is_owner || steps_.scene().has_masks()) {
+  if (!is_owner || paths_.scene().has_masks()) {
     const auto ray = isect.point.spawn_ray_to(shared.point, d);
-    transmittance = ray ? shadow_transmittance(steps_.scene(), *ray, shared.point, rays) : Float(0);
+    transmittance = ray ? shadow_transmittance(paths_.scene(), *ray, shared.point, rays) : Float(0);
     if (transmittance == 0) return {};
   }
   if (const HomogeneousMedium* medium = isect.media(d).current) [[unlikely]]
     f *= medium->transmittance(Float(distance));
   const double g = std::abs(double(d.dot(shared.point.ng))) / distance2;
   return Reconnection{f, transmittance * std::abs(double(wi.z())) * g, transmittance * double(pdf) * g,
-                      steps_.mis_ratio_at(shared.point, isect, fork.state, d, pdf)};
+                      mis_ratio(fork, isect, shared, d, pdf)};
 }
 
-template <class SceneType>
-void PathReuseIntegrator<SceneType>::distribute(const SharedVertex& shared, const Forks& forks, std::uint64_t& rays,
-                                                Radiances& radiances) const {
+template <class SceneType, class LightMis>
+void PathReuseIntegrator<SceneType, LightMis>::distribute(const SharedVertex& shared, const Forks& forks,
+                                                          std::uint64_t& rays, Radiances& radiances) const {
   const ForkVertex& owner = forks[shared.owner];
   const auto own = reconnect(owner, shared, true, rays);
   if (!own) return;
@@ -181,10 +217,10 @@ void PathReuseIntegrator<SceneType>::distribute(const SharedVertex& shared, cons
 }
 
 /// One sample of the radiance of each pixel, with reuse of shared vertices.
-template <class SceneType>
+template <class SceneType, class LightMis>
 template <class Stream>
-auto PathReuseIntegrator<SceneType>::radiances(std::array<CameraRay<Stream>, pixels>& tile, std::uint64_t& rays) const
-    -> Radiances {
+auto PathReuseIntegrator<SceneType, LightMis>::radiances(std::array<CameraRay<Stream>, pixels>& tile,
+                                                         std::uint64_t& rays) const -> Radiances {
   Forks forks;
   Radiances radiances;
   std::array<std::optional<SharedVertex>, pixels> shared_vertices;
@@ -193,10 +229,10 @@ auto PathReuseIntegrator<SceneType>::radiances(std::array<CameraRay<Stream>, pix
     ForkVertex& fork = forks[i];
     radiances[i] = Spectrum::Zero();
     const auto add_radiance = [&](const RadianceContribution& light) { radiances[i] += light.weighted(); };
-    fork.state = steps_.start_path(ray, media);
-    fork.reached = steps_.skip_delta_bounces(fork.state, fork.vertex, stream, rays, add_radiance);
+    fork.state = paths_.start_path(ray, media);
+    fork.reached = reach_fork(fork, stream, rays, add_radiance);
     if (!fork.reached) continue;
-    steps_.sample_direct(fork.vertex.interaction(fork.state), fork.state, stream, rays, add_radiance);
+    paths_.add_direct(fork.state, fork.vertex.interaction(fork.state), stream, rays, add_radiance);
     shared_vertices[i] = extend_to_shared_vertex(i, fork, stream, rays, add_radiance);
   }
   for (const auto& shared : shared_vertices)

@@ -3,6 +3,8 @@
 
 #include <render/scene/scene.h>
 
+#include <mc/table/discrete.h>
+
 namespace render {
 
 /// The rest of a ray beyond a hit at `point`.
@@ -58,6 +60,14 @@ std::optional<Hit> nearest_hit(const SceneType& scene, Ray& ray, std::uint64_t& 
     return detail::nearest_hit_with_masks(scene, ray, rays, passes);
   ++rays;
   return scene.intersect(ray);
+}
+
+/// As nearest_hit; the ray passes a surface with probability 1 - opacity.
+template <class SceneType, class Stream>
+std::optional<Hit> sample_nearest_hit(const SceneType& scene, Ray& ray, Stream& stream, std::uint64_t& rays) {
+  return nearest_hit(scene, ray, rays, [&](Float opacity) {
+    return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
+  });
 }
 
 /// Share of light that arrives along a ray: the product of 1 - opacity over the surfaces on its way; 0 if one of them

@@ -194,7 +194,8 @@ void expect_both_to_make_what_one_does(const Scene& scene) {
   many.light_path_rate = 100;
   const auto paths = LightTracer::create(scene, many, 1);
   ASSERT_TRUE(paths);
-  const PathIntegrator<Scene> both(scene, {many, 3}, &*paths), alone(scene, {strategy_from("mis"), 3});
+  const PathIntegrator<Scene, LightPathMis> both(scene, {many, 3}, LightPathMis(*paths));
+  const PathIntegrator<Scene> alone(scene, {strategy_from("mis"), 3});
   const mc::IndependentPairs numbers(17, 0);
   mc::Moments given, left, all;
   std::uint64_t rays = 0;
@@ -202,8 +203,8 @@ void expect_both_to_make_what_one_does(const Scene& scene) {
   for (std::uint32_t i = 0; i < 400'000; ++i) {
     mc::IndependentPathStream<Float> stream(numbers, i);
     const Ray ray = scene.camera().ray(stream.next2(), tangent, {0, 0});
-    left.add(double(both.radiance(ray, stream, rays)[0]));
-    all.add(double(alone.radiance(ray, stream, rays)[0]));
+    left.add(double(both.Li(ray, stream, rays)[0]));
+    all.add(double(alone.Li(ray, stream, rays)[0]));
     double value = 0;
     paths->trace(stream, 3, rays, [&](const Vec2& s, const Spectrum& v) {
       if (s.minCoeff() >= 0 && s.maxCoeff() < 1) value += double(v[0]) * paths->light_path_rate();

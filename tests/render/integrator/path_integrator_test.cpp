@@ -54,22 +54,7 @@ TEST(PathIntegrator, ClosedFurnace) {
     for (int channel = 0; channel < 3; ++channel)
       expect_mean(support::traced(scene, ray, {s}, 5'000, channel), 2 / (1 - (0.2 + 0.3 * channel)), word(s));
   for (const int branches : {1, 5})
-    expect_mean(support::traced(scene, ray, {unbiased[0], -1, {}, branches}, 5'000), 2.5, "branches");
-}
-
-// The shading normal as a colour instead of radiance; without a hit, the sky.
-TEST(PathIntegrator, ShowsNormals) {
-  SceneBuilder builder;
-  builder.add(Light(ConstantBackground(Spectrum::Constant(Float(0.3)))));
-  builder.add(Sphere(Vec3d::Zero(), 1), {builder.add(Lambert()), Emission{}});
-  const Scene scene = builder.build();
-  const PathOptions options{.aov = Aov::normals};
-  const Vec3 n = Vec3(1, -2, 3).normalized();
-  for (int channel = 0; channel < 3; ++channel) {
-    expect_mean(support::traced(scene, {Vec3(5 * n), Vec3(-n)}, options, 10, channel), (double(n[channel]) + 1) / 2,
-                "normal");
-    expect_mean(support::traced(scene, {Vec3(5 * n), n}, options, 10, channel), 0.3, "sky");
-  }
+    expect_mean(support::traced(scene, ray, {unbiased[0], -1, branches}, 5'000), 2.5, "branches");
 }
 
 // A lossless sphere or plate in a constant sky of 1 is invisible.
@@ -113,8 +98,8 @@ TEST(PathIntegrator, LightsAreDarkFromBehind) {
     mc::IndependentPathStream<Float> stream(numbers, 0);
     const PathIntegrator<Scene> integrator(scene, {s, 1});
     const Ray above{Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, below{Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)};
-    EXPECT_TRUE(is_black(integrator.radiance(above, stream, rays))) << word(s);
-    EXPECT_TRUE((integrator.radiance(below, stream, rays) == 15).all()) << word(s);
+    EXPECT_TRUE(is_black(integrator.Li(above, stream, rays))) << word(s);
+    EXPECT_TRUE((integrator.Li(below, stream, rays) == 15).all()) << word(s);
   }
 }
 
@@ -333,7 +318,7 @@ TEST(PathIntegrator, NonFiniteThroughput_IsReported) {
     for (std::uint32_t i = 0; i < 100; ++i) {
       const mc::IndependentPairs numbers(3, 0);
       mc::IndependentPathStream<Float> stream(numbers, i);
-      EXPECT_FALSE(integrator.radiance({Vec3::Zero(), Vec3::UnitX()}, stream, rays).isFinite().all()) << word(s);
+      EXPECT_FALSE(integrator.Li({Vec3::Zero(), Vec3::UnitX()}, stream, rays).isFinite().all()) << word(s);
     }
   }
 }
@@ -391,6 +376,36 @@ TEST(PathIntegrator, MixedDeltaAndRoughLobes_StrategiesAgree) {
     const mc::Moments m = support::traced(scene, ray, {s}, 50'000);
     EXPECT_LE(std::abs(m.mean() - expected.mean()), 4.42 * std::hypot(m.std_error(), expected.std_error()))
         << word(s) << ": " << m.mean() << " against " << expected.mean();
+  }
+}
+
+TEST(RadianceContribution, WeightedByMisRatio) {
+  EXPECT_EQ(RadianceContribution{Spectrum::Constant(6)}.weighted()[1], 6);
+  EXPECT_EQ((RadianceContribution{Spectrum::Constant(6), 2}.weighted()[1]), 2);
+  EXPECT_EQ((RadianceContribution{Spectrum::Constant(6), mc::infinity<double>}.weighted()[1]), 0);
+}
+
+// The survivors' weight keeps the mean. The first edges always survive.
+TEST(PathIntegrator, RouletteKeepsTheMean) {
+  const mc::IndependentPairs numbers(11, 0);
+  mc::IndependentPathStream<Float> stream(numbers, 1);
+  const auto beta_after = [&](int edges, Float beta, Float eta_scale) {
+    PathIntegrator<Scene>::PathState state;
+    state.edges = edges;
+    state.beta = Spectrum::Constant(beta);
+    state.eta_scale = eta_scale;
+    return PathIntegrator<Scene>::russian_roulette(state, stream) ? double(state.beta[0]) : 0;
+  };
+  EXPECT_EQ(beta_after(3, Float(1e-6), 1), double(Float(1e-6)));
+  for (const Float eta_scale : {Float(1), Float(0.25)}) {
+    mc::Moments moments, survivors;
+    for (int i = 0; i < 20'000; ++i) {
+      const double beta = beta_after(5, Float(0.1), eta_scale);
+      moments.add(beta);
+      survivors.add(beta > 0);
+    }
+    EXPECT_NEAR(moments.mean(), 0.1, 4.5 * moments.std_error());
+    EXPECT_NEAR(survivors.mean(), 4 * 0.1 * double(eta_scale), 4.5 * survivors.std_error());
   }
 }
 

@@ -1,7 +1,7 @@
+#include <render/integrator/light_path_mis.h>
 #include <render/integrator/path_reuse.h>
 #include <render/scene/builder.h>
 
-#include <mc/core/error.h>
 #include <mc/estimate/moments.h>
 #include <mc/sampler/path_sample_stream.h>
 #include <mc/stats/t_test.h>
@@ -24,35 +24,44 @@ struct How {
 
 using Numbers = std::array<mc::IndependentPairs, 4>;
 
+/// Calls trace(policy) with the MIS policy of `how`.
+template <class Trace> auto with_light_mis(const How& how, const Trace& trace) {
+  return how.light_tracer ? trace(LightPathMis(*how.light_tracer)) : trace(NoLightPaths());
+}
+
 /// Moments of each pixel of a tile with rays from `eye`, in red.
 std::array<mc::Moments, 4> tile_of(const Scene& scene, const Vec3& eye, const Directions4& ways, const How& how,
                                    std::uint32_t n) {
   using Stream = mc::IndependentPathStream<Float>;
-  const PathReuseIntegrator<Scene> integrator(scene, how.path, how.light_tracer);
   const Numbers numbers{{{1, 0}, {2, 0}, {3, 0}, {4, 0}}};
   std::array<mc::Moments, 4> moments;
-  std::uint64_t rays = 0;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const auto ray = [&](std::size_t k) {
-      return CameraRay<Stream>{{eye, ways[k].normalized()}, how.media, Stream(numbers[k], i)};
-    };
-    std::array<CameraRay<Stream>, 4> tile{ray(0), ray(1), ray(2), ray(3)};
-    const auto radiances = integrator.radiances(tile, rays);
-    for (std::size_t k = 0; k < 4; ++k) moments[k].add(double(radiances[k][0]), i);
-  }
+  with_light_mis(how, [&]<class LightMis>(const LightMis& light_mis) {
+    const PathReuseIntegrator<Scene, LightMis> integrator(scene, how.path, light_mis);
+    std::uint64_t rays = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const auto ray = [&](std::size_t k) {
+        return CameraRay<Stream>{{eye, ways[k].normalized()}, how.media, Stream(numbers[k], i)};
+      };
+      std::array<CameraRay<Stream>, 4> tile{ray(0), ray(1), ray(2), ray(3)};
+      const auto radiances = integrator.radiances(tile, rays);
+      for (std::size_t k = 0; k < 4; ++k) moments[k].add(double(radiances[k][0]), i);
+    }
+  });
   for (const mc::Moments& m : moments) EXPECT_EQ(m.non_finite_count(), 0u);
   return moments;
 }
 
 mc::Moments alone_of(const Scene& scene, const Ray& ray, const How& how, std::uint32_t n) {
-  const PathIntegrator<Scene> integrator(scene, how.path, how.light_tracer);
   const mc::IndependentPairs numbers(5, 0);
   mc::Moments moments;
-  std::uint64_t rays = 0;
-  for (std::uint32_t i = 0; i < n; ++i) {
-    mc::IndependentPathStream<Float> stream(numbers, i);
-    moments.add(double(integrator.radiance(ray, stream, rays, how.media)[0]), i);
-  }
+  with_light_mis(how, [&]<class LightMis>(const LightMis& light_mis) {
+    const PathIntegrator<Scene, LightMis> integrator(scene, how.path, light_mis);
+    std::uint64_t rays = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      mc::IndependentPathStream<Float> stream(numbers, i);
+      moments.add(double(integrator.Li(ray, stream, rays, how.media)[0]), i);
+    }
+  });
   return moments;
 }
 
@@ -215,11 +224,6 @@ TEST(PathReuse, ReuseLowersVariance) {
   const double own = tile_of(scene, tile_eye, alone, options, 40'000)[0].variance(),
                shared = tile_of(scene, tile_eye, close, options, 40'000)[0].variance();
   EXPECT_LE(shared, 0.75 * own);
-}
-
-TEST(PathReuse, SharesNothingButRadiance) {
-  const Scene scene = Corner().builder.build();
-  EXPECT_THROW(PathReuseIntegrator<Scene>(scene, {.aov = Aov::normals}), mc::Error);
 }
 
 } // namespace
