@@ -25,11 +25,8 @@ BEGIN {
   doc["size"] = "Number of outcomes or elements.";
   # librender/render/{bsdf,light,shape,texture}/concept.h
   doc["eval"] = "Value of the BSDF without the cosine [1/sr].";
-  doc["is_delta"] = "Whether all scattered light leaves in directions of zero solid angle.";
-  doc["has_delta"] = "Whether some scattered light leaves in directions of zero solid angle.";
-  doc["is_near_specular"] = "Whether the lobe is so narrow that light sampling hardly contributes.";
-  doc["casts_caustics"] = "Whether light that leaves this surface may form caustics.";
-  doc["transmits"] = "Whether light passes to the other side.";
+  doc["is_delta"] = "Whether only its samples find it, and no ray hits it.";
+  doc["lobes"] = "Kinds of its lobes.";
   doc["albedo"] = "Largest share of the light that is scattered, over the colour channels.";
   doc["eta"] = "Index of refraction on the side of wi over that on the side of wo; 1 for reflection.";
   doc["Le"] = "Emitted radiance.";

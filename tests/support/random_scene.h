@@ -81,7 +81,7 @@ class RandomScene {
   Bsdf surface(int kind) {
     const Spectrum tint = Spectrum::Ones() - Spectrum(random_.point<Float, 3>()) / 4;
     if (lights_ != RandomLights::lamps && kind == 3 && chance(0.5))
-      return RoughDielectric(Float(1.5), near_specular_alpha / 2, tint, tint);
+      return RoughDielectric(Float(1.5), Lobes::near_specular_roughness / 2, tint, tint);
     switch (kind) {
     case 0: return Dielectric(Float(1.1 + number()), tint, tint);
     case 1: return FuzzyMetal(tint);

@@ -36,22 +36,8 @@ struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<Layered
   Float albedo(const Vec3& wo) const {
     return dispatch(*this, [&](const auto& b) { return b.albedo(wo); });
   }
-  bool is_delta() const {
-    return dispatch(*this, [](const auto& b) { return b.is_delta(); });
-  }
-  bool is_near_specular() const {
-    return dispatch(*this, [](const auto& b) { return b.is_near_specular(); });
-  }
-  bool has_delta() const {
-    return dispatch(*this, [](const auto& b) { return b.has_delta(); });
-  }
-  bool transmits() const {
-    return dispatch(*this, [](const auto& b) { return b.transmits(); });
-  }
-  /// Whether reflected radiance is the same in all directions of one side.
-  bool is_diffuse() const { return std::holds_alternative<Lambert>(*this); }
-  bool casts_caustics() const {
-    return dispatch(*this, [](const auto& b) { return b.casts_caustics(); });
+  Lobes lobes() const {
+    return dispatch(*this, [](const auto& b) { return b.lobes(); });
   }
 };
 

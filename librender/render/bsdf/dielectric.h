@@ -71,11 +71,7 @@ class Dielectric {
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   Float eta(const Vec3& wo, const Vec3& wi) const { return transmitted_eta(wo, wi, eta_); }
   Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
-  bool is_delta() const { return true; }
-  bool is_near_specular() const { return true; }
-  bool has_delta() const { return true; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return true; }
+  Lobes lobes() const { return Lobes::specular(); }
 
  private:
   Float eta_;

@@ -32,7 +32,7 @@ class FuzzyMetal {
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
     if (wo.z() == 0) return {};
     const Vec3 r = reflect(wo);
-    if (is_delta()) return BsdfSample{r, albedo_ / std::abs(r.z()), 1, true};
+    if (fuzz_ == 0) return BsdfSample{r, albedo_ / std::abs(r.z()), 1, true};
     const Vec3 w = r + fuzz_ * mc::UniformBall<Float>{}.sample({uc, u[0], u[1]});
     const Float length = w.norm();
     if (!(length > 0)) return {};
@@ -48,7 +48,7 @@ class FuzzyMetal {
   }
 
   Float pdf(const Vec3& wo, const Vec3& wi) const {
-    if (is_delta() || !(wo.z() * wi.z() > 0)) return 0;
+    if (fuzz_ == 0 || !(wo.z() * wi.z() > 0)) return 0;
     const Vec3 r = reflect(wo);
     const Float middle = r.dot(wi);
     // Squared half length of the chord. |r x wi|^2 is precise for wi close to r.
@@ -64,11 +64,7 @@ class FuzzyMetal {
   }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3&) const { return albedo_.maxCoeff(); }
-  bool is_delta() const { return fuzz_ == 0; }
-  bool is_near_specular() const { return is_delta(); }
-  bool has_delta() const { return is_delta(); }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return fuzz_ <= Float(0.5); } // for larger fuzz, light paths cost more than they gain
+  Lobes lobes() const { return fuzz_ == 0 ? Lobes::specular() : Lobes::glossy(Float(0.4) * fuzz_); }
 
  private:
   Spectrum albedo_;

@@ -32,11 +32,7 @@ class Lambert {
   Float pdf(const Vec3& wo, const Vec3& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0); }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3&) const { return albedo_.maxCoeff(); }
-  bool is_delta() const { return false; }
-  bool is_near_specular() const { return false; }
-  bool has_delta() const { return false; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return false; }
+  Lobes lobes() const { return Lobes::diffuse(); }
   /// Albedo of each channel.
   const Spectrum& albedo() const { return albedo_; }
 

@@ -15,10 +15,6 @@ inline Float checked_alpha(Float alpha) {
   return alpha;
 }
 
-/// Lobes of a smaller alpha count as near-specular: they fill less than about 1e-6 sr. For comparison, the sun fills
-/// 7e-5 sr.
-inline constexpr Float near_specular_alpha = Float(2e-4);
-
 /// w in the frame in which wo is above the surface. The map is its own inverse.
 inline Vec3 to_upper_side(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
 

@@ -77,12 +77,7 @@ template <class Facets> class RoughConductor {
   Float albedo(const Vec3& wo) const {
     return (reflectance_ * fresnel_conductor(std::min(std::abs(wo.z()), Float(1)), eta_, k_)).maxCoeff();
   }
-  bool is_delta() const { return false; }
-  bool is_near_specular() const { return facets_.alpha() < near_specular_alpha; }
-  bool has_delta() const { return false; }
-  bool transmits() const { return false; }
-  /// Whether alpha is at most 0.2. For larger alpha, light paths cost more than they gain.
-  bool casts_caustics() const { return facets_.alpha() <= Float(0.2); }
+  Lobes lobes() const { return Lobes::glossy(facets_.alpha()); }
 
  private:
   Spectrum value(const Reflection& r) const {

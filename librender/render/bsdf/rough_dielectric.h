@@ -59,11 +59,7 @@ class RoughDielectric {
   }
   Float eta(const Vec3& wo, const Vec3& wi) const { return transmitted_eta(wo, wi, eta_); }
   Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
-  bool is_delta() const { return false; }
-  bool is_near_specular() const { return facets_.alpha() < near_specular_alpha; }
-  bool has_delta() const { return false; }
-  bool transmits() const { return true; }
-  bool casts_caustics() const { return true; }
+  Lobes lobes() const { return {.roughness = facets_.alpha(), .transmits = true}; }
 
  private:
   // Frame in which wo is above the surface, with the index on the far side over the index on the side of wo.

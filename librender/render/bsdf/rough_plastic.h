@@ -70,10 +70,6 @@ template <class Base> class CoatedDiffuse {
     const auto [reflected, transmitted] = base_.directional_albedo({wo.x(), wo.y(), std::abs(wo.z())});
     return (specular_ * reflected + diffuse_ * transmitted).maxCoeff();
   }
-  bool is_delta() const { return false; }
-  bool is_near_specular() const { return false; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return false; }
 
  protected:
   /// 1 / pi.
@@ -159,7 +155,7 @@ template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Ba
     paint.set_colors(diffuse, specular);
     return paint;
   }
-  bool has_delta() const { return false; }
+  Lobes lobes() const { return Lobes::glossy(1); }
 
  private:
   using CoatedDiffuse<Base>::inv_pi, CoatedDiffuse<Base>::specular_probability;

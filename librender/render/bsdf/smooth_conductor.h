@@ -25,11 +25,7 @@ class SmoothConductor {
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const { return reflected(wo).maxCoeff(); }
-  bool is_delta() const { return true; }
-  bool is_near_specular() const { return true; }
-  bool has_delta() const { return true; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return true; }
+  Lobes lobes() const { return Lobes::specular(); }
 
  private:
   Spectrum reflected(const Vec3& wo) const {

@@ -45,7 +45,7 @@ template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<B
     paint.set_colors(diffuse, specular);
     return paint;
   }
-  bool has_delta() const { return true; }
+  Lobes lobes() const { return {.roughness = 1, .has_delta = true}; }
 
  private:
   using CoatedDiffuse<Base>::inv_pi, CoatedDiffuse<Base>::specular_probability;

@@ -28,7 +28,7 @@ connect_to_light(const SceneType& scene, DirectLighting direct_lighting, const D
   const Vec2 u = stream.next2(); // u[0] also selects the light, so that the selection is stratified
   const auto choice = scene.sample_light(isect.point.p, u[0]);
   const Light& source = scene.lights()[choice.index];
-  if (isect.bsdf.is_near_specular() && !source.is_delta()) return {};
+  if (isect.bsdf.lobes().is_near_specular() && !source.is_delta()) return {};
   const auto s = source.sample(isect.point.p, {choice.u_remapped, u[1]});
   if (!s || is_black(s->radiance)) return {};
   const Vec3 wi = isect.frame.to_local(s->wi);

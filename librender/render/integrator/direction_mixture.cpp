@@ -26,7 +26,7 @@ std::vector<const Shape*> lights_and_importance_targets(const Scene& scene) {
 std::vector<const Shape*> specular_spheres(const Scene& scene) {
   std::vector<const Shape*> found;
   for (const Surface& s : scene.surfaces())
-    if (std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta()) found.push_back(s.shape.get());
+    if (std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).lobes().is_delta()) found.push_back(s.shape.get());
   if (found.size() > max_spheres) found.clear();
   return found;
 }

@@ -88,7 +88,7 @@ class DirectionMixture {
   /// Samples a direction. Returns nothing if the sample is absorbed or rejected by same_geometric_side().
   template <class B, class Stream>
   RENDER_FLAT std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
-    if (!target_distribution_ || isect.bsdf.is_near_specular()) return sample_bsdf(isect, stream);
+    if (!target_distribution_ || isect.bsdf.lobes().is_near_specular()) return sample_bsdf(isect, stream);
     const Vec2 u = stream.next2(); // u[0] also selects the part of the mixture, so that the selection is stratified
     const auto part = guiding_choice(isect).sample_index(u[0]);
     return part.index == 0 ? sample_bsdf_part(isect, Vec2(part.u_remapped, u[1]), part.pmf, stream.next())
@@ -104,7 +104,8 @@ class DirectionMixture {
  private:
   // Outcome 1 samples a target, outcome 0 the BSDF.
   template <class B> mc::Bernoulli<Float> guiding_choice(const ShadingPoint<B>& isect) const {
-    const Float guiding_fraction = isect.bsdf.has_delta() ? std::min(guiding_fraction_, Float(0.5)) : guiding_fraction_;
+    const Float guiding_fraction =
+        isect.bsdf.lobes().has_delta ? std::min(guiding_fraction_, Float(0.5)) : guiding_fraction_;
     return mc::Bernoulli<Float>(limited_by_absorption_
                                     ? std::min(guiding_fraction, std::max(1 - isect.bsdf.albedo(isect.wo), Float(0)))
                                     : guiding_fraction);
@@ -117,7 +118,7 @@ class DirectionMixture {
     if (!s) return {};
     const Vec3 d = isect.frame.to_world(s->wi);
     if (!same_geometric_side(isect, s->wi, d)) return {};
-    const bool is_near_specular = s->delta || isect.bsdf.is_near_specular();
+    const bool is_near_specular = s->delta || isect.bsdf.lobes().is_near_specular();
     return ScatterSample{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_near_specular ? Float(0) : s->pdf, s->eta, 1};
   }
 
@@ -139,7 +140,7 @@ class DirectionMixture {
   template <class B, class Stream>
   std::optional<ScatterSample> sample_target_part(const ShadingPoint<B>& isect, const Vec2& u, Stream& stream) const {
     if (target_shapes_.empty()) {
-      const bool through = isect.bsdf.transmits();
+      const bool through = isect.bsdf.lobes().transmits;
       Vec3 wi = through ? mc::UniformSphere<Float>{}.sample(u) : mc::UniformHemisphere<Float>{}.sample(u);
       if (!through && isect.wo.z() < 0) wi.z() = -wi.z();
       const Vec3 d = isect.frame.to_world(wi);
@@ -183,7 +184,7 @@ class DirectionMixture {
     return (uses_bsdf_ ? part.pmf(0) * own : Float(0)) + part.pmf(1) * targets;
   }
   template <class B> Float targets_pdf(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d) const {
-    if (target_shapes_.empty() && isect.bsdf.transmits()) return 1 / (4 * mc::pi<Float>);
+    if (target_shapes_.empty() && isect.bsdf.lobes().transmits) return 1 / (4 * mc::pi<Float>);
     if (target_shapes_.empty()) return wi.z() * isect.wo.z() >= 0 ? 1 / (2 * mc::pi<Float>) : Float(0);
     return mc::mixture_pdf(*target_distribution_,
                            [&](std::size_t i) { return target_shapes_[i]->pdf(isect.point.p, d); });

@@ -49,9 +49,10 @@ Ball bounding_ball(std::span<const Ball> balls) {
 // paths find their caustics of parallel light. If there are still too many balls, the largest stay and one ball
 // encloses the others, so that this ball is as small as possible.
 std::vector<Shape> caustic_bounds_of(const Scene& scene) {
-  auto casters = shapes_where(scene, [](const Bsdf& b) { return b.casts_caustics(); });
+  auto casters = shapes_where(scene, [](const Bsdf& b) { return b.lobes().casts_caustics(); });
   if (casters.size() > max_caustic_bounds) {
-    const auto clear = shapes_where(scene, [](const Bsdf& b) { return b.is_near_specular() || b.transmits(); });
+    const auto clear =
+        shapes_where(scene, [](const Bsdf& b) { return b.lobes().is_near_specular() || b.lobes().transmits; });
     if (!clear.empty()) casters = clear;
   }
   std::vector<Ball> balls;

@@ -253,7 +253,8 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
     if (subpath.edges == 1)
       subpath.nee_pdf_squared = mc::sqr(double(scene_->light_pmf(point.p, light)) *
                                         direction_pdf(scene_->lights()[light], point.p, -subpath.ray.d, source));
-    if (subpath.edges > 1 && !isect.bsdf.is_near_specular()) connect_to_camera(isect, subpath, stream, rays, add_splat);
+    if (subpath.edges > 1 && !isect.bsdf.lobes().is_near_specular())
+      connect_to_camera(isect, subpath, stream, rays, add_splat);
     if (!scatter(isect, subpath, stream)) return;
   }
 }
@@ -294,7 +295,7 @@ bool LightTracer::scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& s
   // A near-specular lobe counts as a delta lobe. The exception is a lobe of positive width at the first vertex after a
   // delta light, since next-event estimation from the camera evaluates this lobe.
   const bool as_near_specular =
-      near_specular && (subpath.edges > 1 || !subpath.from_delta_light || isect.bsdf.has_delta());
+      near_specular && (subpath.edges > 1 || !subpath.from_delta_light || isect.bsdf.lobes().has_delta);
   Float pdf = next->pdf;
   if (near_specular) pdf = as_near_specular ? Float(1) : isect.bsdf.pdf(isect.wo, wi);
   // Light travels from wo to wi, and BSDFs need not be reciprocal, so the arguments of eval are swapped. Near-specular

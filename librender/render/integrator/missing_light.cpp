@@ -10,7 +10,7 @@ std::optional<MissingLight> missing_light(const Scene& scene, const Strategy& st
   if (max_depth >= 0 && max_depth < min_edges) return {};
   const auto lights = scene.lights();
   const auto surfaces = scene.surfaces();
-  const auto is_smooth = [&](const Surface& s) { return scene.bsdf(s).is_delta(); };
+  const auto is_smooth = [&](const Surface& s) { return scene.bsdf(s).lobes().is_delta(); };
   const auto light = std::find_if(lights.begin(), lights.end(), [](const Light& l) { return l.is_delta(); });
   const auto smooth = std::find_if(surfaces.begin(), surfaces.end(), is_smooth);
   if (light == lights.end() || smooth == surfaces.end() || std::all_of(surfaces.begin(), surfaces.end(), is_smooth))

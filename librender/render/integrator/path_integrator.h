@@ -139,7 +139,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
       add_emission(state, vertex, add_radiance);
       if (!scatters) return;
       const Interaction isect = vertex.interaction(state);
-      if (!isect.bsdf.is_delta()) {
+      if (!isect.bsdf.lobes().is_delta()) {
         add_direct(state, isect, stream, rays, add_radiance);
         if (splits) return add_radiance(RadianceContribution{trace_branches(state, isect, stream, rays)});
       }

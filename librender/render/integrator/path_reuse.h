@@ -103,7 +103,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathReuseIntegra
   void trace_on(PathState& state, const Vertex& vertex, Stream& stream, std::uint64_t& rays,
                 const AddRadiance& add_radiance) const {
     const auto isect = vertex.interaction(state);
-    if (!isect.bsdf.is_delta()) paths_.add_direct(state, isect, stream, rays, add_radiance);
+    if (!isect.bsdf.lobes().is_delta()) paths_.add_direct(state, isect, stream, rays, add_radiance);
     if (paths_.sample_bsdf(state, isect, stream) && Paths::russian_roulette(state, stream))
       paths_.trace(state, false, stream, rays, add_radiance);
   }
@@ -112,7 +112,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathReuseIntegra
   template <class Stream, class AddRadiance>
   bool reach_fork(ForkVertex& fork, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
     while (next_vertex(fork.state, fork.vertex, stream, rays, add_radiance)) {
-      if (!fork.vertex.bsdf->is_delta()) return true;
+      if (!fork.vertex.bsdf->lobes().is_delta()) return true;
       const auto isect = fork.vertex.interaction(fork.state);
       if (!paths_.sample_bsdf(fork.state, isect, stream) || !Paths::russian_roulette(fork.state, stream)) return false;
     }
@@ -149,7 +149,7 @@ auto PathReuseIntegrator<SceneType, LightMis>::extend_to_shared_vertex(std::size
   Vertex vertex;
   if (!paths_.sample_bsdf(state, fork.vertex.interaction(state), stream)) return {};
   if (!next_vertex(state, vertex, stream, rays, add_radiance)) return {};
-  if (state.previous_pdf == 0 || !vertex.bsdf->is_diffuse()) {
+  if (state.previous_pdf == 0 || !vertex.bsdf->lobes().is_diffuse()) {
     trace_on(state, vertex, stream, rays, add_radiance);
     return {};
   }
@@ -165,7 +165,7 @@ auto PathReuseIntegrator<SceneType, LightMis>::reconnect(const ForkVertex& fork,
                                                          bool is_owner, std::uint64_t& rays) const
     -> std::optional<Reconnection> {
   const auto isect = fork.vertex.interaction(fork.state);
-  if (isect.bsdf.is_near_specular()) return {};
+  if (isect.bsdf.lobes().is_near_specular()) return {};
   const Vec3d way = shared.point.p.template cast<double>() - isect.point.p.template cast<double>();
   const double distance2 = way.squaredNorm(), distance = std::sqrt(distance2);
   if (!(distance2 > 0)) return {};

@@ -26,13 +26,27 @@ TEST(Bsdf, ForwardsToItsAlternative) {
   EXPECT_EQ(bsdf.eta(wo, -wi), 1);
   EXPECT_EQ(Bsdf(RoughDielectric(Float(1.5), Float(0.1))).eta(wo, -wi), Float(1.5));
   EXPECT_EQ(bsdf.sample(wo, Float(0.5), u)->wi, metal.sample(wo, Float(0.5), u)->wi);
-  EXPECT_FALSE(bsdf.is_delta());
-  EXPECT_TRUE(Bsdf(Dielectric{}).is_delta());
-  EXPECT_TRUE(Bsdf(FuzzyMetal{}).is_delta());
-  EXPECT_TRUE(Bsdf(SmoothConductor(Spectrum::Ones(), Spectrum::Ones())).is_delta());
+  EXPECT_FALSE(bsdf.lobes().is_delta());
+  EXPECT_TRUE(Bsdf(Dielectric{}).lobes().is_delta());
+  EXPECT_TRUE(Bsdf(FuzzyMetal{}).lobes().is_delta());
+  EXPECT_TRUE(Bsdf(SmoothConductor(Spectrum::Ones(), Spectrum::Ones())).lobes().is_delta());
   const Bsdf lacquer = SmoothPlastic(Float(1.5), Spectrum::Ones(), Spectrum::Ones());
-  EXPECT_TRUE(lacquer.has_delta() && !lacquer.is_delta() && !lacquer.is_near_specular());
-  EXPECT_FALSE(Bsdf(Lambert{}).is_delta());
+  EXPECT_TRUE(lacquer.lobes().has_delta && !lacquer.lobes().is_delta() && !lacquer.lobes().is_near_specular());
+  EXPECT_FALSE(Bsdf(Lambert{}).lobes().is_delta());
+}
+
+// Rough glass focuses light at any roughness, reflection only up to a roughness of .2, which is a fuzz of .5.
+TEST(Lobes, CastCausticsIfNarrow) {
+  const Spectrum one = Spectrum::Ones();
+  const auto metal = [&](Float alpha) { return Bsdf(RoughConductor(one, one, TrowbridgeReitzFacets(alpha))).lobes(); };
+  const auto fuzzy = [&](Float fuzz) { return Bsdf(FuzzyMetal(one, fuzz)).lobes(); };
+  EXPECT_TRUE(metal(Float(0.2)).casts_caustics() && fuzzy(Float(0.5)).casts_caustics());
+  EXPECT_FALSE(metal(Float(0.21)).casts_caustics() || fuzzy(Float(0.51)).casts_caustics());
+  EXPECT_TRUE(Bsdf(RoughDielectric(Float(1.5), 1)).lobes().casts_caustics());
+  EXPECT_FALSE(Bsdf(Lambert{}).lobes().casts_caustics());
+  EXPECT_TRUE(metal(Float(1e-4)).is_near_specular() && !metal(Float(1e-4)).is_delta());
+  EXPECT_FALSE(metal(Float(1e-3)).is_near_specular());
+  EXPECT_TRUE(Bsdf(Lambert{}).lobes().is_diffuse() && !metal(1).is_diffuse());
 }
 
 // Bit for bit, even for narrow lobes at grazing angles, where one ulp of the direction changes the results.

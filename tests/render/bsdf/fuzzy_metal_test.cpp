@@ -16,7 +16,7 @@ Vec3 at_angle(double degrees) {
 
 TEST(FuzzyMetal, WithoutFuzzIsAMirror) {
   const FuzzyMetal mirror{Spectrum::Constant(Float(0.8)), 0};
-  EXPECT_TRUE(mirror.is_delta());
+  EXPECT_TRUE(mirror.lobes().is_delta());
   for (const double angle : {0.0, 60.0, 89.9, 120.0}) {
     const Vec3 wo = at_angle(angle);
     const auto s = mirror.sample(wo, Float(0.3), Vec2(Float(0.1), Float(0.7)));

@@ -28,7 +28,7 @@ TEST(Lambert, ReflectsItsAlbedoAndTransmitsNothing) {
     EXPECT_EQ(b.eval(-wo, -wi)[c], b.eval(wo, wi)[c]);
   }
   EXPECT_EQ(b.pdf(wo, -wi), 0);
-  EXPECT_FALSE(b.is_delta());
+  EXPECT_FALSE(b.lobes().is_delta());
 }
 
 TEST(Lambert, RefusesNonsense) {

@@ -54,10 +54,10 @@ TEST(TexturedPlastic, ReflectsNoMoreThanItGets) {
 
 TEST(TexturedBsdf, IsOneOfItsKind) {
   const TexturedBsdf matt = TexturedLambert(Checkerboard(bright, dim));
-  EXPECT_TRUE(matt.untextured().is_diffuse() && matt.at({0.1, 0.1}).is_diffuse());
+  EXPECT_TRUE(matt.untextured().lobes().is_diffuse() && matt.at({0.1, 0.1}).lobes().is_diffuse());
   const TexturedBsdf lacquer =
       TexturedPlastic(SmoothPlastic(Float(1.5), dim, bright), Texture(Checkerboard(bright, dim)), {});
-  EXPECT_TRUE(lacquer.untextured().has_delta() && lacquer.at({0.1, 0.1}).has_delta());
+  EXPECT_TRUE(lacquer.untextured().lobes().has_delta && lacquer.at({0.1, 0.1}).lobes().has_delta);
 }
 
 } // namespace

@@ -42,11 +42,7 @@ class HalfMirror {
   Float pdf(const Vec3& wo, const Vec3& wi) const { return base_.pdf(wo, wi) / 2; }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3&) const { return Float(0.75); }
-  bool is_delta() const { return false; }
-  bool is_near_specular() const { return is_delta(); }
-  bool has_delta() const { return true; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return false; }
+  Lobes lobes() const { return {.roughness = 1, .has_delta = true}; }
 
  private:
   Lambert base_;

@@ -68,7 +68,7 @@ TEST(PathIntegrator, WhiteFurnace_HidesObjects) {
     // standard error is sqrt(.002 * .05 / n) = 7e-5.
     for (const Strategy& s : unbiased) {
       const mc::Moments m = support::traced(scene, {Vec3(Float(0.3), Float(0.4), 3), Vec3(0, 0, -1)}, {s}, 20'000);
-      if (bsdf.is_delta()) EXPECT_NEAR(m.mean(), 1, 5e-4) << word(s);
+      if (bsdf.lobes().is_delta()) EXPECT_NEAR(m.mean(), 1, 5e-4) << word(s);
       else expect_mean(m, 1, word(s), 1e-4);
     }
   }
@@ -181,7 +181,7 @@ TEST(PathIntegrator, Guiding_KeepsVarianceLowForManyBounces) {
 // No strategy connects near-specular glass to lights that rays can hit. Lights that only connections find still count.
 TEST(PathIntegrator, NearSpecularLobe_FindsEveryLight) {
   const RoughDielectric narrow(Float(1.5), Float(1e-4));
-  ASSERT_TRUE(narrow.is_near_specular());
+  ASSERT_TRUE(narrow.lobes().is_near_specular());
   const Ray down{Vec3(0, 2, 0), Vec3(0, -1, 0)};
   SceneBuilder sky;
   sky.add(Light(ConstantBackground(Spectrum::Constant(Float(0.5)))));
@@ -339,11 +339,7 @@ class Coated {
   Float pdf(const Vec3& wo, const Vec3& wi) const { return Float(0.7) * base_.pdf(wo, wi); }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3&) const { return Float(0.8); }
-  bool is_delta() const { return false; }
-  bool is_near_specular() const { return is_delta(); }
-  bool has_delta() const { return true; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return false; }
+  Lobes lobes() const { return {.roughness = 1, .has_delta = true}; }
 
  private:
   Lambert base_{Spectrum::Constant(Float(0.35))};

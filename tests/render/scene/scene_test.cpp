@@ -30,8 +30,8 @@ TEST(Scene, ReturnsBsdfAtHit) {
   ASSERT_TRUE(lamp && ball);
   EXPECT_EQ(scene.surface(*lamp).light, std::optional(0u));
   EXPECT_FALSE(scene.surface(*ball).light);
-  EXPECT_FALSE(scene.bsdf(scene.surface(*lamp)).is_delta());
-  EXPECT_TRUE(scene.bsdf(scene.surface(*ball)).is_delta());
+  EXPECT_FALSE(scene.bsdf(scene.surface(*lamp)).lobes().is_delta());
+  EXPECT_TRUE(scene.bsdf(scene.surface(*ball)).lobes().is_delta());
   const SurfacePoint p = scene.surface_point(ahead, *lamp);
   EXPECT_TRUE((scene.lights()[0].Le(ahead.d, &p) == 2).all());
   EXPECT_TRUE(scene.occluded(ahead));

@@ -99,9 +99,9 @@ TEST_F(Lajolla, WithoutRoughnessMaterialsAreSmooth) {
   const std::string alpha = "<float name=\"alpha\" value=\"0\"/>", metal = alpha + "<float name=\"eta\" value=\"0.2\"/>"
                                                                                    "<float name=\"k\" value=\"3\"/>";
   for (const Dialect dialect : {Dialect::lajolla, Dialect::mitsuba}) {
-    EXPECT_TRUE(bsdf("roughplastic", alpha, dialect).has_delta());
-    EXPECT_TRUE(bsdf("roughdielectric", alpha, dialect).is_delta());
-    EXPECT_TRUE(bsdf("roughconductor", metal, dialect).is_delta());
+    EXPECT_TRUE(bsdf("roughplastic", alpha, dialect).lobes().has_delta);
+    EXPECT_TRUE(bsdf("roughdielectric", alpha, dialect).lobes().is_delta());
+    EXPECT_TRUE(bsdf("roughconductor", metal, dialect).lobes().is_delta());
   }
   const std::string phong = "<string name=\"distribution\" value=\"phong\"/>";
   EXPECT_TRUE(std::holds_alternative<render::SmoothConductor>(bsdf("roughconductor", metal + phong)));
