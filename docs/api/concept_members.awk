@@ -32,9 +32,13 @@ BEGIN {
   doc["Le"] = "Emitted radiance.";
   doc["is_sampled"] = "Whether direct lighting samples this light.";
   doc["is_infinite"] = "Whether the light is infinitely far away.";
+  doc["sample_emission"] = "Samples the first ray of a light path, aimed at the surfaces that cast caustics.";
+  doc["emission_pdf"] = "Density with which sample_emission() selects a ray.";
   doc["irradiance"] = "Irradiance from this light.";
   doc["surface_point"] = "Position, normals and texture coordinates at the hit.";
   doc["area"] = "Surface area.";
+  doc["bounding_ball"] = "A ball that contains the shape.";
+  doc["is_spherical"] = "Whether the shape is a sphere or a part of one.";
   doc["box"] = "Axis-aligned bounds.";
   doc["uv"] = "Texture coordinates.";
   doc["has_uv"] = "Whether the shape has texture coordinates.";

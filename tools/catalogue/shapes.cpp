@@ -70,8 +70,9 @@ template <class D, class Image, class Surface>
 void add_points(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
                 const Vec3& ref, const D& domain, const Image& image, const Surface& surface, double scale,
                 double tolerance = 1e-3) {
+  using Point = typename D::Point;
   struct Drawn {
-    Vec3 x;
+    Point x;
     Float weight, pdf;
   };
   // Density per area. The weight for f = 1 uses the density that the shape's sample states.
@@ -82,15 +83,15 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
   };
   const auto sample = [=](const Vec2& u) {
     const auto s = shape.sample(ref, u);
-    if (!s) return Drawn{Vec3(nan, nan, nan), 0, 0};
+    if (!s) return Drawn{Point::Constant(nan), 0, 0};
     const Float pdf = per_area(s->point, s->pdf);
     return Drawn{image(s->point), 1 / pdf, pdf};
   };
-  const auto pdf = [=](const Vec3& x) {
+  const auto pdf = [=](const Point& x) {
     const SurfacePoint p = surface(x);
     return per_area(p, shape.pdf(ref, (p.p - ref).normalized(), p));
   };
-  mc::Subject subject = make_subject("", domain, sample, pdf, [](const Vec3&) { return Float(1); });
+  mc::Subject subject = make_subject("", domain, sample, pdf, [](const Point&) { return Float(1); });
   subject.weight_tolerance = tolerance;
   add_subject(c, name, parameters + ", points", std::move(subject), time_of(shape, ref), 1e-6);
 }
@@ -190,6 +191,24 @@ void add_meshes_seen(Catalogue& c) {
                  directions, directions.from_unit({Float(0.5), Float(0.5)}));
 }
 
+// An ellipse, with its points in the unit disk.
+void add_disk_seen(Catalogue& c) {
+  const Transform to_world = Transform::columns({2, 0, 0.5}, {0.25, 1, 0}, {0, 0, 1}, {0, 0, 2});
+  const Disk disk(to_world);
+  const auto image = [=](const SurfacePoint& p) {
+    const auto uv = disk.uv({}, p);
+    const double phi = 2 * mc::pi<double> * uv[1];
+    return Vec2(Float(uv[0] * std::cos(phi)), Float(uv[0] * std::sin(phi)));
+  };
+  const auto surface = [=](const Vec2& x) {
+    SurfacePoint p = *disk.sample_area({Float(0.5), Float(0.5)}); // for its normal
+    p.p = to_world.point({double(x[0]), double(x[1]), 0}).cast<Float>();
+    return p;
+  };
+  add_points(c, "Disk", "an ellipse", disk, {Float(0.25), Float(0.5), Float(-1.5)}, mc::Disk<Float>{}, image, surface,
+             disk.area() / mc::pi<double>);
+}
+
 // Light selection at a point.
 struct LightsSeen {
   using Scalar = Float;
@@ -213,7 +232,7 @@ void add_choices(Catalogue& c) {
   for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
     spheres.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
   add_choice(c, "LightSampler", "spheres of one size and place", std::move(spheres));
-  // Point and directional lights: only the choice of the light is random.
+  // Point, spot and directional lights: only the choice of the light is random.
   for (const bool with_sun : {false, true}) {
     SceneBuilder points;
     points.add(Sphere(Vec3d::Zero(), 0.1), {points.add(Lambert())});
@@ -223,6 +242,16 @@ void add_choices(Catalogue& c) {
     if (with_sun) add_choice(c, "DirectionalLight", "chosen beside points", std::move(points));
     else add_choice(c, "PointLight", "chosen by its distance", std::move(points));
   }
+}
+
+// Spot lights that shine on the point, past it and away from it, by their distance and their cones.
+void add_spot_choice(Catalogue& c) {
+  SceneBuilder spots;
+  spots.add(Sphere(Vec3d::Zero(), 0.1), {spots.add(Lambert())});
+  for (const double angle : {0.0, 17.5, 40.0, 180.0})
+    spots.add(Light(SpotLight(Vec3d(1, 2, 5), Transform::rotate(Vec3d::UnitX(), angle).vector(-Vec3d::UnitZ()),
+                              Spectrum::Ones(), {})));
+  add_choice(c, "SpotLight", "chosen by its cone", std::move(spots));
 }
 
 // The surface at which a ray ends; the first of two surfaces has a textured mask.
@@ -325,7 +354,9 @@ void add_pinholes(Catalogue& c) {
 void add_shapes(Catalogue& c) {
   add_spheres_seen(c);
   add_meshes_seen(c);
+  add_disk_seen(c);
   add_choices(c);
+  add_spot_choice(c);
   add_mask(c);
   add_lights_seen(c);
   add_camera(c);

@@ -9,6 +9,7 @@
 #include <mc/core/parallel.h>
 
 #include <algorithm>
+#include <concepts>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -19,7 +20,8 @@ namespace render {
 /// A tree over the primitives of one kind. A leaf is a Block of eight primitives; spare lanes repeat the last
 /// primitive. Block defines:
 ///   Primitive         : one primitive, with bounds().
-///   size(shape)       : number of primitives of this kind in a shape, including degenerate ones.
+///   ShapeType         : kind of the shapes that consist of these primitives.
+///   size(shape)       : number of primitives in a ShapeType, including degenerate ones.
 ///   collect(shape, index, begin, end, to) : writes the valid primitives of the nonempty range [begin, end) to `to`.
 ///   Returns the end of the output.
 ///   max_brute_force   : up to this number of primitives, each ray tests all blocks, which is faster than a tree.
@@ -85,10 +87,24 @@ template <class Block> class BlockTree {
   static constexpr std::uint32_t lanes = 8;
   static constexpr double build_bytes = 85; ///< of a primitive while the tree is built, beside `primitives`
 
+  // The functions of Block for any shape. Shapes of other kinds have no such primitives.
+  static std::size_t size(const Shape& shape) {
+    return dispatch(shape, []<class S>(const S& s) -> std::size_t {
+      if constexpr (std::same_as<S, typename Block::ShapeType>) return Block::size(s);
+      return 0;
+    });
+  }
+  static Primitive* collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to) {
+    return dispatch(shape, [&]<class S>(const S& s) {
+      if constexpr (std::same_as<S, typename Block::ShapeType>) return Block::collect(s, index, begin, end, to);
+      return to;
+    });
+  }
+
   // All valid primitives in the order of the shapes.
   static Primitives collected(std::span<const Shape* const> shapes) {
     std::vector<std::size_t> ends; // ends of the ranges of the shapes, degenerate primitives included
-    for (const Shape* shape : shapes) ends.push_back((ends.empty() ? 0 : ends.back()) + Block::size(*shape));
+    for (const Shape* shape : shapes) ends.push_back((ends.empty() ? 0 : ends.back()) + size(*shape));
     const std::size_t size = ends.empty() ? 0 : ends.back();
     Primitives all(size);
     constexpr std::size_t most = 4096;
@@ -99,7 +115,7 @@ template <class Block> class BlockTree {
       auto shape = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), begin) - ends.begin());
       for (std::size_t i = begin; i < end; ++shape) {
         const std::size_t first = shape == 0 ? 0 : ends[shape - 1], stop = std::min(end, ends[shape]);
-        if (i < stop) to = Block::collect(*shapes[shape], static_cast<int>(shape), i - first, stop - first, to);
+        if (i < stop) to = collect(*shapes[shape], static_cast<int>(shape), i - first, stop - first, to);
         i = stop;
       }
       useful[begin / most] = static_cast<std::size_t>(to - &all[begin]);

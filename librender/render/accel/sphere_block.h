@@ -3,7 +3,7 @@
 
 #include <render/accel/wide_tree.h>
 #include <render/core/ray.h>
-#include <render/shape/shape.h>
+#include <render/shape/sphere.h>
 #include <render/shape/sphere_crossings.h>
 
 namespace render {
@@ -11,6 +11,8 @@ namespace render {
 /// Eight spheres or caps, intersected in double. A block type of BlockTree.
 class SphereBlock {
  public:
+  /// Kind of the shapes whose primitives are spheres.
+  using ShapeType = Sphere;
   /// Up to this number of spheres, testing all blocks is faster than a tree.
   static constexpr std::uint32_t max_brute_force = 24;
 
@@ -20,21 +22,13 @@ class SphereBlock {
     int shape;
 
     /// Bounds rounded outward, so that the float box contains the double sphere.
-    Bounds bounds() const {
-      Bounds b;
-      const auto box = sphere->box();
-      for (int a = 0; a < 3; ++a) {
-        b.lo[a] = std::nextafter(Float(box.min()[a]), -mc::infinity<Float>);
-        b.hi[a] = std::nextafter(Float(box.max()[a]), mc::infinity<Float>);
-      }
-      return b;
-    }
+    Bounds bounds() const { return Bounds::around(sphere->box()); }
   };
-  /// Number of spheres in a shape: 1 for a sphere, else 0.
-  static std::size_t size(const Shape& shape) { return std::holds_alternative<Sphere>(shape); }
+  /// Number of spheres in a sphere: 1.
+  static std::size_t size(const Sphere&) { return 1; }
   /// Writes the sphere to `to`; returns the end of the output.
-  static Primitive* collect(const Shape& shape, int index, std::size_t, std::size_t, Primitive* to) {
-    *to = {&std::get<Sphere>(shape), index};
+  static Primitive* collect(const Sphere& sphere, int index, std::size_t, std::size_t, Primitive* to) {
+    *to = {&sphere, index};
     return to + 1;
   }
 

@@ -3,17 +3,27 @@
 
 #include <render/accel/block_tree.h>
 #include <render/accel/bvh.h>
+#include <render/accel/disk_block.h>
 #include <render/accel/sphere_block.h>
 #include <render/accel/triangle_block.h>
 
+#include <concepts>
 #include <tuple>
 
 namespace render {
 
-static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock) == 8 * sizeof(double));
+static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock) == 8 * sizeof(double) &&
+              alignof(DiskBlock) == 8 * sizeof(double));
 
 /// One tree per block type.
 template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
+  /// Whether the primitives of every kind of shape are in the tree of one block type.
+  template <class... Kinds> static constexpr bool cover(const std::variant<Kinds...>*) {
+    return (([]<class Kind>(const Kind*) {
+              return (std::same_as<Kind, typename Block::ShapeType> + ...);
+            }(static_cast<const Kinds*>(nullptr)) == 1) &&
+            ...);
+  }
   /// Trees without primitives.
   BlockTrees() = default;
   /// Builds one tree per block type.
@@ -22,9 +32,11 @@ template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
 };
 
 /// The trees of a Bvh, one per block type, in the order in which a ray tests them.
-struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock> {
+struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock, DiskBlock> {
   /// Constructors of BlockTrees.
   using BlockTrees::BlockTrees;
+
+  static_assert(cover(static_cast<const Shape*>(nullptr)), "a kind of shape without a block type is never hit");
 
   /// Nearest hit of the ray, stored in hit; with any = true, only whether there is a hit.
   template <bool any> bool trace(const Ray& ray, Hit& hit) const {

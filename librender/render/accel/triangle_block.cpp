@@ -2,14 +2,8 @@
 
 namespace render {
 
-std::size_t TriangleBlock::size(const Shape& shape) {
-  const auto* mesh = std::get_if<TriangleMesh>(&shape);
-  return mesh ? mesh->size() : 0;
-}
-
-auto TriangleBlock::collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to)
+auto TriangleBlock::collect(const TriangleMesh& mesh, int index, std::size_t begin, std::size_t end, Primitive* to)
     -> Primitive* {
-  const auto& mesh = std::get<TriangleMesh>(shape);
   for (std::size_t t = begin; t < end; ++t) {
     const auto v = mesh.vertices(t);
     const Vec3d a = v[0].cast<double>();

@@ -4,7 +4,7 @@
 #include <render/accel/wide_tree.h>
 #include <render/core/lanes.h>
 #include <render/core/ray.h>
-#include <render/shape/shape.h>
+#include <render/shape/triangle_mesh.h>
 
 #include <array>
 #include <cmath>
@@ -18,6 +18,8 @@ namespace render {
 /// Degenerate triangles are left out.
 class TriangleBlock {
  public:
+  /// Kind of the shapes whose primitives are triangles.
+  using ShapeType = TriangleMesh;
   static constexpr std::uint32_t max_brute_force =
       48; ///< Up to this number of triangles, testing all blocks is faster than a node and sorting its children.
 
@@ -35,10 +37,10 @@ class TriangleBlock {
       return b;
     }
   };
-  /// Number of triangles in a shape, degenerate ones included; 0 unless the shape is a mesh.
-  static std::size_t size(const Shape& shape);
+  /// Number of triangles in a mesh, degenerate ones included.
+  static std::size_t size(const TriangleMesh& mesh) { return mesh.size(); }
   /// Writes the triangles of [begin, end) that are not degenerate to `to`; returns the end of the output.
-  static Primitive* collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to);
+  static Primitive* collect(const TriangleMesh& mesh, int index, std::size_t begin, std::size_t end, Primitive* to);
 
   /// The ray, rotated so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
   struct RaySetup {

@@ -3,15 +3,34 @@
 
 #include <render/core/types.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 
 namespace render {
+
+/// A ball, in double.
+struct Ball {
+  Vec3d center = Vec3d::Zero(); ///< Centre.
+  double radius = 0;            ///< Radius >= 0.
+};
 
 /// An axis-aligned box; empty until something is added.
 struct Bounds {
   /// Smallest and largest coordinates.
   Vec3 lo = Vec3::Constant(mc::infinity<Float>), ///< Smallest coordinates.
       hi = Vec3::Constant(-mc::infinity<Float>); ///< Largest coordinates.
+
+  /// The box of Floats around a box of doubles, rounded outward.
+  static Bounds around(const Eigen::AlignedBox3d& box) {
+    Bounds b;
+    for (int a = 0; a < 3; ++a) {
+      b.lo[a] = std::nextafter(Float(box.min()[a]), -mc::infinity<Float>);
+      b.hi[a] = std::nextafter(Float(box.max()[a]), mc::infinity<Float>);
+    }
+    return b;
+  }
 
   /// Extends the box to contain p.
   void add(const Vec3& p) {

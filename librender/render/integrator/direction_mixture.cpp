@@ -26,7 +26,7 @@ std::vector<const Shape*> lights_and_importance_targets(const Scene& scene) {
 std::vector<const Shape*> specular_spheres(const Scene& scene) {
   std::vector<const Shape*> found;
   for (const Surface& s : scene.surfaces())
-    if (std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).lobes().is_delta()) found.push_back(s.shape.get());
+    if (s.shape->is_spherical() && scene.bsdf(s).lobes().is_delta()) found.push_back(s.shape.get());
   if (found.size() > max_spheres) found.clear();
   return found;
 }
@@ -41,17 +41,16 @@ std::vector<const Shape*> speculars(const Scene& scene) {
 
 std::vector<const Shape*> enclosing_speculars(const Scene& scene) {
   std::vector<const Shape*> found = specular_spheres(scene);
-  std::erase_if(found, [&](const Shape* s) { return !contains_area_light(scene, std::get<Sphere>(*s)); });
+  std::erase_if(found, [&](const Shape* s) { return !contains_area_light(scene, s->bounding_ball()); });
   return found;
 }
 
 } // namespace
 
-bool contains_area_light(const Scene& scene, const Sphere& sphere) {
-  const auto& lights = scene.lights();
-  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) {
-    const auto* lamp = std::get_if<AreaLight>(&light);
-    return lamp && lamp->shape().box().squaredExteriorDistance(sphere.center()) < mc::sqr(sphere.radius());
+bool contains_area_light(const Scene& scene, const Ball& ball) {
+  const auto& surfaces = scene.surfaces();
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
+    return s.light && s.shape->box().squaredExteriorDistance(ball.center) < mc::sqr(ball.radius);
   });
 }
 

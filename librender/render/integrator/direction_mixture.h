@@ -62,8 +62,8 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 ///   max_depth : largest number of edges; -1 for no limit.
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
 
-/// Whether the sphere overlaps the bounding box of an area light.
-bool contains_area_light(const Scene& scene, const Sphere& sphere);
+/// Whether the ball overlaps the bounding box of an area light.
+bool contains_area_light(const Scene& scene, const Ball& ball);
 
 /// Mixture of the BSDF and the targets of a strategy; all n targets are equally likely.
 ///   sample : a direction with its weight under the density of the whole mixture.

@@ -21,12 +21,10 @@ namespace render {
 /// easily.
 ///   Direct : The first vertex is not connected. Camera paths find light by way of one surface with less noise, since
 ///            the number of light paths that land in a pixel is random.
-///   Lights : chosen in proportion to their power, with a uniform third.
-///   Shapes : a point uniform in area; a direction by the cosine, or, with probability 4/5, toward caustic bounds.
-///   Points : a direction uniform on the sphere, or, with probability 4/5, toward caustic bounds.
-///   Infinite lights : a direction as the light samples it; an origin on a disk across a caustic bound.
+///   Lights : chosen in proportion to their power, with a uniform third. Each samples the first ray of a path by its
+///            emission, aimed at caustic bounds; see EmissionTargets.
 ///   Caustic bounds : balls around the shapes that focus light, at most 8. If there are more, the 7 largest stay and
-///                    one ball encloses the others. Shapes and points do not aim at balls that an area light overlaps.
+///                    one ball encloses the others.
 ///   Paths  : follow the BSDFs, with Russian roulette; see docs/methods/russian-roulette.md.
 ///   Gain   : see docs/methods/light-tracing.md and notebooks-data/trade/scenes.csv.
 ///   Source : [Veach97] chapter 10, techniques s = 0, s = 1 and t = 1; section 5.3 for shading normals.
@@ -45,9 +43,8 @@ class LightTracer {
 
   /// Squared density of light paths that start at the light and travel along -wi to `ref`, per camera path; 0 for
   /// lights that emit no light paths.
-  ///   light_point : point of the light; null for infinite lights.
-  ///   Measure     : area lights: area of the light times solid angle. Point lights: area across wi at `ref`. Infinite
-  ///                 lights: solid angle times area across wi.
+  ///   light_point : point of the light; null for lights without a shape.
+  ///   Measure     : see LightLike.
   double emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref,
                               const Vec3& wi) const;
 
@@ -69,51 +66,20 @@ class LightTracer {
   template <class Stream, class AddSplat>
   void trace(Stream& stream, int max_depth, std::uint64_t& rays, const AddSplat& add_splat) const;
 
-  /// Moving keeps the elements of caustic_bounds_ in place, so the pointers in targeted_bounds_ stay valid.
-  LightTracer(LightTracer&&) = default;
-  /// As the move constructor.
-  LightTracer& operator=(LightTracer&&) = default;
-
  private:
-  LightTracer(const Scene& scene, const Strategy& strategy, Float aspect, std::vector<Shape> caustic_bounds,
+  LightTracer(const Scene& scene, const Strategy& strategy, Float aspect, EmissionTargets targets,
               const std::vector<double>& weights);
 
-  struct EmissionSample {
-    Ray ray;
-    /// Point of the light, with both normals on the emitting side; empty for infinite lights.
-    std::optional<SurfacePoint> point;
-    Spectrum beta = Spectrum::Zero(); ///< Throughput without beta_scale.
-    double beta_scale = 0; ///< Factor of the throughput in double: an inverse density may exceed the range of Float.
-    PartialMisWeight partial_mis = {};
-  };
-  template <class Stream>
-  std::optional<EmissionSample> sample_emission(std::uint32_t light, const Vec2& u, Stream& stream) const;
-  template <class Stream>
-  std::optional<EmissionSample> sample_area_emission(const AreaLight& lamp, double pmf, const Vec2& u,
-                                                     Stream& stream) const;
-  std::optional<EmissionSample> sample_point_emission(const PointLight& lamp, double pmf, const Vec2& u) const;
-  template <class Stream>
-  std::optional<EmissionSample> sample_infinite_emission(const Light& light, double pmf, const Vec2& u,
-                                                         Stream& stream) const;
-  // A direction that was aimed at caustic bound `target`, with its density [1/sr].
-  struct TargetedDirection {
-    std::size_t target;
-    Float pdf;
-  };
-  // Density [1/sr] of the direction d from a point light at p. `targeted`: the bound that d was sampled from.
-  double point_emission_pdf(const Vec3& p, const Vec3& d, const std::optional<TargetedDirection>& targeted = {}) const;
   // As LightLike's pdf, but 1 for the only direction of a delta light.
   double direction_pdf(const Light& light, const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
     return light.is_delta() ? 1 : double(light.pdf(ref, wi, light_point));
   }
-  // Density [1/area], across the line through p along d, of light paths of an infinite light.
-  double parallel_emission_pdf(const Vec3& p, const Vec3& d) const;
 
   struct LightSubpath {
     Ray ray;
     Vec3 previous_point;
-    Spectrum beta;
-    double beta_scale;
+    Spectrum beta;     ///< Throughput without beta_scale.
+    double beta_scale; ///< Factor in double: an inverse density may exceed the range of Float.
     PartialMisWeight partial_mis;
     MediumStack media = {};
     Float initial_beta_max = 0;    ///< Largest component of beta at emission.
@@ -156,75 +122,26 @@ class LightTracer {
   double light_path_rate_;
   Vec2 tan_half_;
   mc::TableDist1D<Float> light_distribution_;
-  std::vector<Shape> caustic_bounds_; ///< Balls that paths of infinite lights are aimed at.
-  /// Balls that paths of other lights are aimed at: no area light overlaps them.
-  std::vector<const Shape*> targeted_bounds_;
-  DirectionMixture emission_mixture_, bsdf_mixture_, camera_mixture_;
-  mc::Bernoulli<Float> guiding_choice_; ///< For paths of point lights: 1 aims, 0 is uniform.
-  bool has_media_;                      ///< Some surface has an interior medium.
-  Bsdf emission_bsdf_;                  ///< Cosine-distributed emission of area lights, as a BSDF.
+  EmissionTargets targets_; ///< Caustic bounds.
+  DirectionMixture bsdf_mixture_, camera_mixture_;
+  bool has_media_; ///< Some surface has an interior medium.
 };
 
 /// The strategies that find every light of the scene. Leaves out mis+lt if it would equal mis.
 std::vector<Strategy> complete_strategies(const Scene& scene);
-
-template <class Stream>
-std::optional<LightTracer::EmissionSample> LightTracer::sample_area_emission(const AreaLight& lamp, double pmf,
-                                                                             const Vec2& u, Stream& stream) const {
-  auto point = lamp.shape().sample_area(u);
-  if (!point) return {};
-  if (lamp.is_two_sided() && mc::Bernoulli<Float>(Float(0.5)).sample_index(stream.next()).index == 1)
-    point->ng = -point->ng;
-  point->ns = point->ng;
-  const auto frame = mc::Frame<Float>::from_z(point->ng);
-  const auto next = emission_mixture_.sample(ShadingPoint<Bsdf>{emission_bsdf_, *point, frame, Vec3::UnitZ()}, stream);
-  if (!next || is_black(next->weight)) return {};
-  const double sides = lamp.is_two_sided() ? 2 : 1, area_pdf = pmf / lamp.shape().area();
-  return EmissionSample{
-      point->spawn_ray(next->d), point, lamp.radiance() * next->weight, mc::pi<double> * sides / area_pdf,
-      PartialMisWeight(1 / mc::sqr(area_pdf), double(next->pdf) / sides, std::abs(double(point->ng.dot(next->d))))};
-}
-
-template <class Stream>
-std::optional<LightTracer::EmissionSample> LightTracer::sample_infinite_emission(const Light& light, double pmf,
-                                                                                 const Vec2& u, Stream& stream) const {
-  const auto s = light.sample(Vec3::Zero(), u);
-  if (!s || is_black(s->radiance)) return {};
-  const std::size_t target = mc::UniformDiscrete<Float>(caustic_bounds_.size()).sample_index(stream.next()).index;
-  const Sphere& aim = std::get<Sphere>(caustic_bounds_[target]);
-  const Vec2 disk = mc::UniformDisk<Float>{}.sample(stream.next2());
-  const Vec3d wi = s->wi.template cast<double>();
-  const Vec3d across_ball = mc::Frame<Float>::from_z(s->wi).to_world({disk[0], disk[1], 0}).template cast<double>();
-  const Vec3d crossing = aim.center() + aim.radius() * across_ball;
-  // The origin lies beyond everything that may shadow the ball, but no farther: floats at a large distance, as beside a
-  // huge ground plane, resolve a small ball poorly.
-  const Vec3 p = (crossing + (scene_->bounds().exit_distance(crossing, wi) + aim.radius()) * wi).template cast<Float>();
-  const double pdf = pmf * double(s->pdf), area_pdf = parallel_emission_pdf(p, s->wi);
-  if (!(area_pdf > 0)) return {}; // rounding
-  return EmissionSample{
-      {p, -s->wi}, {}, s->radiance / Float(pdf), 1 / area_pdf, PartialMisWeight(1 / mc::sqr(pdf), area_pdf, 1)};
-}
-
-template <class Stream>
-std::optional<LightTracer::EmissionSample> LightTracer::sample_emission(std::uint32_t light, const Vec2& u,
-                                                                        Stream& stream) const {
-  const auto pmf = double(light_distribution_.pmf(light));
-  const Light& source = scene_->lights()[light];
-  if (const auto* lamp = std::get_if<AreaLight>(&source)) return sample_area_emission(*lamp, pmf, u, stream);
-  if (const auto* lamp = std::get_if<PointLight>(&source)) return sample_point_emission(*lamp, pmf, u);
-  return sample_infinite_emission(source, pmf, u, stream);
-}
 
 template <class Stream, class AddSplat>
 void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, const AddSplat& add_splat) const {
   const Vec2 u = stream.next2();
   const auto choice = light_distribution_.sample_index(u[0]);
   const auto light = static_cast<std::uint32_t>(choice.index);
-  const auto emission = sample_emission(light, {choice.u_remapped, u[1]}, stream);
+  const auto emission = scene_->lights()[light].sample_emission(targets_, {choice.u_remapped, u[1]}, stream.next2());
   if (!emission) return;
   const SurfacePoint* source = emission->point ? &*emission->point : nullptr;
-  LightSubpath subpath{emission->ray, source ? source->p : emission->ray.o, emission->beta, emission->beta_scale,
-                       emission->partial_mis};
+  const double vertex_pdf = double(choice.pmf) * emission->vertex_pdf;
+  LightSubpath subpath{emission->ray, source ? source->p : emission->ray.o, emission->radiance,
+                       emission->cosine / (vertex_pdf * emission->ray_pdf),
+                       PartialMisWeight(1 / mc::sqr(vertex_pdf), emission->ray_pdf, emission->cosine)};
   subpath.from_delta_light = scene_->lights()[light].is_delta();
   subpath.initial_beta_max = subpath.beta.maxCoeff();
   if (has_media_) [[unlikely]]

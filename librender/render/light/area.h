@@ -38,10 +38,31 @@ class AreaLight {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? shape_->pdf(ref, wi, *light_point) : Float(0);
   }
-  /// Luminous power [W].
-  double power(double) const {
-    return mc::pi<double> * shape_->area() * double(luminance(radiance_)) * (two_sided_ ? 2 : 1);
+  std::optional<EmissionSample> sample_emission(const EmissionTargets& targets, const Vec2& u, const Vec2& v) const {
+    auto point = shape_->sample_area(u);
+    if (!point) return {};
+    Vec2 w = v;
+    if (two_sided_) {
+      const auto side = mc::Bernoulli<Float>(Float(0.5)).sample_index(v[0]);
+      if (side.index == 1) point->ng = -point->ng;
+      w[0] = side.u_remapped;
+    }
+    point->ns = point->ng;
+    const auto s = targets.sample_direction(point->p, w, CosineEmission{point->ng});
+    const double cosine = s ? double(point->ng.dot(s->wi)) : 0;
+    if (!(cosine > 0)) return {};
+    return EmissionSample{point->spawn_ray(s->wi),  point, radiance_, 1 / shape_->area(),
+                          double(s->pdf) / sides(), cosine};
   }
+  double emission_pdf(const EmissionTargets& targets, const Vec3&, const Vec3& wi,
+                      const SurfacePoint* light_point) const {
+    if (!light_point) return 0;
+    const bool is_back = two_sided_ && light_point->ng.dot(wi) > 0;
+    const CosineEmission emission{is_back ? Vec3(-light_point->ng) : light_point->ng};
+    return double(targets.direction_pdf(light_point->p, -wi, emission)) / (shape_->area() * sides());
+  }
+  /// Luminous power [W].
+  double power(double) const { return mc::pi<double> * shape_->area() * double(luminance(radiance_)) * sides(); }
   double irradiance(const Vec3& ref) const {
     return double(luminance(radiance_)) * shape_->projected_solid_angle_bound(ref);
   }
@@ -57,6 +78,8 @@ class AreaLight {
   const Shape& shape() const { return *shape_; }
 
  private:
+  double sides() const { return two_sided_ ? 2 : 1; }
+
   std::shared_ptr<const Shape> shape_;
   Spectrum radiance_;
   bool two_sided_;

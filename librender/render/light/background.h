@@ -27,6 +27,13 @@ class ConstantBackground {
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? Float(0) : mc::UniformSphere<Float>{}.pdf(wi);
   }
+  std::optional<EmissionSample> sample_emission(const EmissionTargets& targets, const Vec2& u, const Vec2& v) const {
+    return sample_infinite_emission(*this, targets, u, v);
+  }
+  double emission_pdf(const EmissionTargets& targets, const Vec3& ref, const Vec3& wi,
+                      const SurfacePoint* light_point) const {
+    return double(pdf(ref, wi, light_point)) * targets.parallel_pdf(ref, wi);
+  }
   /// Luminous power [W] into a ball of this radius.
   double power(double radius) const { return 4 * mc::sqr(mc::pi<double> * radius) * double(luminance(radiance_)); }
   double irradiance(const Vec3&) const { return mc::pi<double> * double(luminance(radiance_)); }
@@ -67,6 +74,13 @@ class GradientBackground {
   }
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? Float(0) : height_.pdf(height(wi)) * mc::UniformSphere<Float>{}.pdf(wi);
+  }
+  std::optional<EmissionSample> sample_emission(const EmissionTargets& targets, const Vec2& u, const Vec2& v) const {
+    return sample_infinite_emission(*this, targets, u, v);
+  }
+  double emission_pdf(const EmissionTargets& targets, const Vec3& ref, const Vec3& wi,
+                      const SurfacePoint* light_point) const {
+    return double(pdf(ref, wi, light_point)) * targets.parallel_pdf(ref, wi);
   }
   /// Luminous power [W] into a ball of this radius.
   double power(double radius) const {

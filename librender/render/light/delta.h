@@ -3,6 +3,8 @@
 
 #include <render/light/concept.h>
 
+#include <mc/warp/sphere.h>
+
 #include <algorithm>
 
 namespace render {
@@ -36,6 +38,16 @@ class PointLight {
     return LightSample{-end.ng, (intensity_.cast<double>() / d2).cast<Float>(), 1, end};
   }
   Float pdf(const Vec3&, const Vec3&, const SurfacePoint*) const { return 0; }
+  std::optional<EmissionSample> sample_emission(const EmissionTargets& targets, const Vec2&, const Vec2& v) const {
+    const Vec3 p = position_.cast<Float>();
+    const auto s = targets.sample_direction(p, v, mc::UniformSphere<Float>{});
+    if (!s) return {};
+    return emission_from_point(p, *s, intensity_);
+  }
+  double emission_pdf(const EmissionTargets& targets, const Vec3& ref, const Vec3& wi, const SurfacePoint*) const {
+    return double(targets.direction_pdf(position_.cast<Float>(), -wi, mc::UniformSphere<Float>{})) /
+           (position_ - ref.cast<double>()).squaredNorm();
+  }
   /// Luminous power [W].
   double power(double) const { return 4 * mc::pi<double> * double(luminance(intensity_)); }
   double irradiance(const Vec3& ref) const {
@@ -71,6 +83,12 @@ class DirectionalLight {
   Spectrum Le(const Vec3&, const SurfacePoint*) const { return Spectrum::Zero(); }
   std::optional<LightSample> sample(const Vec3&, const Vec2&) const { return LightSample{wi_, irradiance_, 1, {}}; }
   Float pdf(const Vec3&, const Vec3&, const SurfacePoint*) const { return 0; }
+  std::optional<EmissionSample> sample_emission(const EmissionTargets& targets, const Vec2& u, const Vec2& v) const {
+    return sample_infinite_emission(*this, targets, u, v);
+  }
+  double emission_pdf(const EmissionTargets& targets, const Vec3& ref, const Vec3& wi, const SurfacePoint*) const {
+    return targets.parallel_pdf(ref, wi);
+  }
   /// Luminous power [W] into a ball of this radius.
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * double(luminance(irradiance_)); }
   double irradiance(const Vec3&) const { return double(luminance(irradiance_)); }

@@ -31,6 +31,13 @@ class Environment {
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point ? Float(0) : density(place(wi));
   }
+  std::optional<EmissionSample> sample_emission(const EmissionTargets& targets, const Vec2& u, const Vec2& v) const {
+    return sample_infinite_emission(*this, targets, u, v);
+  }
+  double emission_pdf(const EmissionTargets& targets, const Vec3& ref, const Vec3& wi,
+                      const SurfacePoint* light_point) const {
+    return double(pdf(ref, wi, light_point)) * targets.parallel_pdf(ref, wi);
+  }
   /// Luminous power [W] into a ball of this radius.
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * flux_; }
   double irradiance(const Vec3&) const { return flux_; }

@@ -1,6 +1,7 @@
 #pragma once
 /// Concept of a shape: hits, surface points with error bounds, and samples of the shape from a reference point.
 
+#include <render/core/bounds.h>
 #include <render/core/ray.h>
 
 #include <Eigen/Geometry>
@@ -71,6 +72,9 @@ struct DirectionSample {
 ///   sample_area(u)    : a point of the shape with density 1 / area(). nullopt after discard_sampling_table().
 ///   area()            : total area.
 ///   box()             : axis-aligned bounding box.
+///   bounding_ball()   : a ball that contains the shape.
+///   is_spherical()    : whether the shape is a sphere or a part of one, so that directions toward it cost little and
+///                       fill its bounding ball.
 ///   projected_solid_angle_bound(ref) : upper bound of the projected solid angle [sr] of the shape at ref, for any
 ///                                      orientation of the receiver. At most pi, and close for a distant shape that
 ///                                      faces ref.
@@ -87,6 +91,8 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;
   { s.box() } -> std::same_as<Eigen::AlignedBox3d>;
+  { s.bounding_ball() } -> std::same_as<Ball>;
+  { s.is_spherical() } -> std::convertible_to<bool>;
   { s.projected_solid_angle_bound(ref) } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };

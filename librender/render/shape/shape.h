@@ -2,13 +2,14 @@
 /// The closed set of shapes.
 
 #include <render/core/dispatch.h>
+#include <render/shape/disk.h>
 #include <render/shape/sphere.h>
 #include <render/shape/triangle_mesh.h>
 
 namespace render {
 
 /// One of the shapes. Models ShapeLike, where the operations are documented.
-struct Shape : std::variant<TriangleMesh, Sphere> {
+struct Shape : std::variant<TriangleMesh, Sphere, Disk> {
   using variant::variant;
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const {
@@ -31,6 +32,12 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   }
   Eigen::AlignedBox3d box() const {
     return dispatch(*this, [](const auto& s) { return s.box(); });
+  }
+  Ball bounding_ball() const {
+    return dispatch(*this, [](const auto& s) { return s.bounding_ball(); });
+  }
+  bool is_spherical() const {
+    return dispatch(*this, [](const auto& s) { return s.is_spherical(); });
   }
   double projected_solid_angle_bound(const Vec3& ref) const {
     return dispatch(*this, [&](const auto& s) { return s.projected_solid_angle_bound(ref); });

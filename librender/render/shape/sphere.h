@@ -40,6 +40,9 @@ class Sphere {
   double area() const;
   /// Bounding box of the whole sphere, even for a cap.
   Eigen::AlignedBox3d box() const { return {center_.array() - radius_, center_.array() + radius_}; }
+  /// The whole sphere, even for a cap.
+  Ball bounding_ball() const { return {center_, radius_}; }
+  bool is_spherical() const { return true; }
   double projected_solid_angle_bound(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 

@@ -198,6 +198,15 @@ ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
   return {point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1)), d.cast<Float>(), near_pdf(triangle, directions)};
 }
 
+Ball TriangleMesh::bounding_ball() const {
+  const Vec3d center = box().center();
+  double radius2 = 0;
+  for (const Face& face : faces_)
+    for (const std::uint32_t v : face.vertices)
+      radius2 = std::max(radius2, (positions_[v].cast<double>() - center).squaredNorm());
+  return {center, std::sqrt(radius2)};
+}
+
 double TriangleMesh::projected_solid_angle_bound(const Vec3& ref) const {
   const Vec3d away = (bounds_.lo - ref).cwiseMax(ref - bounds_.hi).cwiseMax(Float(0)).cast<double>();
   return std::min(mc::pi<double>, area_ / away.squaredNorm());

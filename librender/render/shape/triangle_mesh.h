@@ -41,6 +41,9 @@ class TriangleMesh {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const { return area_; }
+  /// The smallest ball around the centre of the bounding box.
+  Ball bounding_ball() const;
+  bool is_spherical() const { return false; }
   double projected_solid_angle_bound(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   /// Point with the barycentric weights b1 and b2 of vertices 1 and 2.

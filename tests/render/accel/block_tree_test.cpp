@@ -11,14 +11,15 @@ using namespace render;
 // A third block type, as a new shape would add one: planes z = const, defined by the area of a shape.
 class LevelBlock {
  public:
+  using ShapeType = Sphere;
   static constexpr std::uint32_t max_brute_force = 16;
   struct Primitive {
     Float z;
     int shape;
     Bounds bounds() const { return {Vec3(-1, -1, z), Vec3(1, 1, z)}; }
   };
-  static std::size_t size(const Shape&) { return 1; }
-  static Primitive* collect(const Shape& shape, int index, std::size_t, std::size_t, Primitive* to) {
+  static std::size_t size(const Sphere&) { return 1; }
+  static Primitive* collect(const Sphere& shape, int index, std::size_t, std::size_t, Primitive* to) {
     *to = {Float(shape.area()), index};
     return to + 1;
   }

@@ -10,8 +10,7 @@ using namespace render;
 
 TEST(SphereBlock, CollectsSpheresInBoxesThatHoldThem) {
   SphereBlock::Primitive found[2];
-  const Shape ball = Sphere(Vec3d(0.1, 0.2, 0.3), 0.7), square = TriangleMesh::rectangle({});
-  EXPECT_EQ(SphereBlock::size(square), 0u);
+  const Sphere ball(Vec3d(0.1, 0.2, 0.3), 0.7);
   EXPECT_EQ(SphereBlock::size(ball), 1u);
   ASSERT_EQ(SphereBlock::collect(ball, 1, 0, 1, found), found + 1);
   EXPECT_EQ(found[0].shape, 1);

@@ -31,4 +31,15 @@ TEST(Bounds, ExitDistanceBoundsTheBox) {
   EXPECT_EQ(bounds.exit_distance({1, 1, 1}, Vec3d::UnitX()), 0);
 }
 
+// Rounding to Float never cuts the box.
+TEST(Bounds, AroundDoubles_IsRoundedOutward) {
+  const Eigen::AlignedBox3d box(render::Vec3d(-0.1, 0.2, 1e10 + 0.3), render::Vec3d(0.1, 0.3, 1e10 + 0.4));
+  const render::Bounds b = render::Bounds::around(box);
+  for (int a = 0; a < 3; ++a) {
+    EXPECT_LE(double(b.lo[a]), box.min()[a]);
+    EXPECT_GE(double(b.hi[a]), box.max()[a]);
+    EXPECT_NEAR(double(b.hi[a]), box.max()[a], 2e-7 * (1 + box.max()[a]));
+  }
+}
+
 } // namespace

@@ -8,7 +8,7 @@ using namespace render;
 
 static_assert(LightLike<Light> && LightLike<AreaLight> && LightLike<ConstantBackground> &&
               LightLike<GradientBackground> && LightLike<Environment> && LightLike<PointLight> &&
-              LightLike<DirectionalLight>);
+              LightLike<DirectionalLight> && LightLike<SpotLight>);
 
 TEST(Light, AnswersAsItsMember) {
   const GradientBackground sky;
@@ -18,6 +18,13 @@ TEST(Light, AnswersAsItsMember) {
   EXPECT_EQ(light.pdf(ref, wi, nullptr), sky.pdf(ref, wi, nullptr));
   EXPECT_EQ(light.sample(ref, Vec2(Float(0.3), Float(0.7)))->wi, sky.sample(ref, Vec2(Float(0.3), Float(0.7)))->wi);
   EXPECT_EQ(light.power(2), sky.power(2));
+  const Sphere ball(Vec3d(1, 2, 3), 2);
+  const EmissionTargets targets({ball}, {}, Bounds::around(ball.box()));
+  const Vec2 u(Float(0.3), Float(0.7)), v(Float(0.2), Float(0.4));
+  const auto first = light.sample_emission(targets, u, v), expected = sky.sample_emission(targets, u, v);
+  ASSERT_TRUE(first && expected);
+  EXPECT_EQ(first->ray.o, expected->ray.o);
+  EXPECT_EQ(light.emission_pdf(targets, ref, wi, nullptr), sky.emission_pdf(targets, ref, wi, nullptr));
   EXPECT_TRUE(light.is_infinite() && !light.is_delta() && !light.is_sampled());
 }
 

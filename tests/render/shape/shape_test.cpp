@@ -9,7 +9,7 @@ namespace {
 
 using namespace render;
 
-static_assert(ShapeLike<Shape> && ShapeLike<Sphere> && ShapeLike<TriangleMesh>);
+static_assert(ShapeLike<Shape> && ShapeLike<Sphere> && ShapeLike<TriangleMesh> && ShapeLike<Disk>);
 
 TEST(Shape, AnswersAsItsMember) {
   const Sphere sphere(Vec3d(0, 0, 3), 1);
@@ -17,6 +17,13 @@ TEST(Shape, AnswersAsItsMember) {
   const Vec3 ref = Vec3::Zero(), wi(0, 0, 1);
   EXPECT_EQ(shape.area(), sphere.area());
   EXPECT_EQ(shape.pdf(ref, wi), sphere.pdf(ref, wi));
+  EXPECT_EQ(shape.bounding_ball().center, Vec3d(0, 0, 3));
+  EXPECT_EQ(shape.bounding_ball().radius, 1);
+  EXPECT_TRUE(shape.is_spherical());
+  const Shape box = TriangleMesh::box(Transform::translate({1, 2, 3}));
+  EXPECT_EQ(box.bounding_ball().center, Vec3d(1, 2, 3));
+  EXPECT_NEAR(box.bounding_ball().radius, std::sqrt(3), 1e-12);
+  EXPECT_FALSE(box.is_spherical());
   const auto a = shape.sample(ref, Vec2(Float(0.3), Float(0.7))), b = sphere.sample(ref, Vec2(Float(0.3), Float(0.7)));
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->point.p, b->point.p);
@@ -64,14 +71,14 @@ TEST(Shape, SolidAngleStaysBelowBound) {
     const Transform place = Transform::translate(at) * Transform::rotate({number(), number(), 1}, 90 * number()) *
                             Transform::scale({size, size, 2 * size});
     const Shape shapes[] = {Sphere(at, size), Sphere::cap(at, size, Vec3d(number(), number(), 1), size / 3),
-                            TriangleMesh::rectangle(place), TriangleMesh::box(place)};
-    const Shape& shape = shapes[trial % 4];
+                            TriangleMesh::rectangle(place), TriangleMesh::box(place), Disk(place)};
+    const Shape& shape = shapes[trial % 5];
     const Vec3 ref = Vec3d(number(), number(), number()).cast<Float>(), n = (at.cast<Float>() - ref).normalized();
     mc::Moments filled;
     for (std::uint64_t i = 0; i < 200; ++i) {
       const auto s = shape.sample(ref, {random.uniform<Float>(), random.uniform<Float>()});
       // Half of the sides of a box are visible; the others lie behind them.
-      const double shares = trial % 4 == 3 ? 0.5 : 1;
+      const double shares = trial % 5 == 3 ? 0.5 : 1;
       const double outside = s ? shape.box().exteriorDistance(s->point.p.cast<double>()) : 0;
       EXPECT_LE(outside, s ? 2 * double(s->point.error) : 0) << trial;
       filled.add(s ? shares * double(std::max(Float(0), s->wi.dot(n)) / s->pdf) : 0.0, i);

@@ -187,6 +187,13 @@ TEST_F(Mitsuba, LightsAndLensesNameWhatIsWrong) {
       testing::HasSubstr("s.xml:3: <emitter>: directional light: direction (0, 0, 0) must be finite and not 0"));
   EXPECT_THAT(said("<emitter type=\"point\"><rgb name=\"intensity\" value=\"-1\"/></emitter>"),
               testing::HasSubstr("s.xml:3: <emitter>: point light: intensity (-1, -1, -1) must be finite and >= 0"));
+  const auto spot = [&](const std::string& parameters) {
+    return said(fmt::format(R"(<emitter type="spot">{}</emitter>)", parameters));
+  };
+  EXPECT_THAT(spot(R"(<float name="cutoffAngle" value="10"/><float name="beamWidth" value="12"/>)"),
+              testing::HasSubstr("s.xml:3: <emitter>: spot light: beam width 12 must lie in [0, 10] degrees"));
+  EXPECT_THAT(spot(R"(<texture type="bitmap" name="texture"/>)"),
+              testing::HasSubstr("s.xml:3: <texture>: spot has no 'texture'"));
   EXPECT_THAT(said("<integrator type=\"ao\"><float name=\"rayLength\" value=\"-1\"/></integrator>"),
               testing::HasSubstr("s.xml:3: <integrator>: rayLength -1 must be > 0"));
   const auto lens = [&](const std::string& parameters) {
@@ -274,6 +281,26 @@ TEST_F(Mitsuba, DefaultsAreTheDialects) {
               testing::HasSubstr("focalLength -1 must be > 0"));
   EXPECT_THAT(support::error_of([] { render::dialect_from("mitsba"); }),
               testing::HasSubstr("unknown dialect 'mitsba'; did you mean 'mitsuba'?; use one of mitsuba, lajolla"));
+}
+
+// toWorld turns +z to the axis of the light. Halfway between the default beam width of 15 degrees and the cutoff at 20
+// degrees, the intensity is half.
+TEST_F(Mitsuba, SpotLightsShineAlongTheirAxis) {
+  const std::string file = scene(std::string(sensor) + R"(<shape type="sphere"/><emitter type="spot">
+    <transform name="to_world"><rotate y="1" angle="90"/><translate x="1" y="2" z="3"/></transform>
+    <rgb name="intensity" value="4, 8, 12"/></emitter>)");
+  const render::Scene read = render::read_mitsuba(file).scene;
+  ASSERT_EQ(read.lights().size(), 1u);
+  const auto irradiance = [&](double degrees) {
+    const double angle = degrees * mc::pi<double> / 180;
+    const render::Vec3 ref(render::Float(1 + 2 * std::cos(angle)), render::Float(2 + 2 * std::sin(angle)), 3);
+    const auto s = read.lights()[0].sample(ref, {});
+    return s ? double(s->radiance[1]) : 0.0;
+  };
+  EXPECT_NEAR(irradiance(0), 2, 1e-5);
+  EXPECT_NEAR(irradiance(14.9), 2, 1e-5);
+  EXPECT_NEAR(irradiance(17.5), 1, 1e-4);
+  EXPECT_EQ(irradiance(20.1), 0);
 }
 
 // A truncated scene is read, or rejected with a one-line error.

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 
 TEST(Unsupported, GivesTheReason) {
   EXPECT_THAT(why_unsupported("integrator", "volpath"), HasSubstr("scattering media are not supported"));
-  EXPECT_THAT(why_unsupported("emitter", "spot"), HasSubstr("use point"));
+  EXPECT_THAT(why_unsupported("emitter", "projector"), HasSubstr("use point"));
   EXPECT_EQ(why_unsupported("emitter", "pont"), "");
   EXPECT_EQ(why_unsupported("shape", "spot"), "");
 }

@@ -28,6 +28,11 @@ DirectionalLight make_directional(const Transform& to_world, const Vec3d& direct
   return {to_world.vector(direction), irradiance};
 }
 
+SpotLight make_spot(const Transform& to_world, const Spectrum& intensity, double cutoff,
+                    const std::optional<double>& beam) {
+  return {to_world.translation, to_world.vector(Vec3d::UnitZ()), intensity, {cutoff, beam.value_or(0.75 * cutoff)}};
+}
+
 Declaration sampling_weight() {
   return no_effect("samplingWeight", "lights are chosen by what they give where light is sought");
 }
@@ -66,6 +71,16 @@ const Plugins<Light>& emitter_plugins() {
                     make_point, transform("toWorld", "from the light's space to the scene's"),
                     point("position", "where it is", Vec3d::Zero()),
                     color("intensity", "W/sr", "what is emitted, >= 0", Spectrum::Ones()))
+          .accepting({sampling_weight()}),
+      plugin<Light>("spot",
+                    "a point that emits into a cone about +z, the same intensity up to beamWidth, then falling "
+                    "linearly in the angle to 0 at cutoffAngle; found as point is",
+                    make_spot, transform("toWorld", "from the light's space to the scene's"),
+                    color("intensity", "W/sr", "what is emitted along the axis, >= 0", Spectrum::Ones()),
+                    number("cutoffAngle", "degrees", 20, "from the axis to where the light ends, in (0, 180]"),
+                    optional(number("beamWidth", "degrees",
+                                    "from the axis to where the intensity starts to fall, in [0, cutoffAngle]"))
+                        .with_default(std::nullopt, "3/4 of cutoffAngle"))
           .accepting({sampling_weight()}),
       plugin<Light>("directional",
                     "parallel light from far away; only the strategies nee, mis and mis+lt find it, and only mis+lt "

@@ -55,6 +55,8 @@ Shape make_rectangle(const Transform& to_world, bool flip) {
   return square;
 }
 
+Shape make_disk(const Transform& to_world, bool flip) { return Disk(to_world, flip); }
+
 Shape make_cube(const Transform& to_world) {
   mc::require(to_world.linear.determinant() != 0, "toWorld flattens the cube; use a rectangle for what is flat");
   return TriangleMesh::box(to_world);
@@ -206,6 +208,8 @@ const Plugins<ShapeDescription>& shape_plugins() {
                   integer("shapeIndex", "which of the file's meshes, >= 0", 0)),
       shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world(),
                    boolean("flipNormals", "whether the normal is -z")),
+      shape_plugin("disk", "the unit disk in the plane z = 0, normal +z; toWorld may make an ellipse of it", make_disk,
+                   to_world(), boolean("flipNormals", "whether the normal is -z")),
       shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(
           "sphere", "a sphere, or the cap of one", make_sphere, to_world_of_sphere(), center(),
