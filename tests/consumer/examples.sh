@@ -28,6 +28,17 @@ if command -v gfortran >/dev/null; then
 else
   echo "plugin-fortran: skipped, gfortran is not installed"
 fi
+if command -v rustc >/dev/null; then
+  make_example plugin-rust
+  "$CARLO" validate --plugin "$scratch/plugin-rust/lobe.so" --samples 100000
+else
+  echo "plugin-rust: skipped, rustc is not installed"
+fi
+if [ -d "$scratch/prefix/include/render" ]; then
+  make_example light
+  "$scratch/light/light_test" --gtest_brief=1
+  "$scratch/light/picture" "$scratch/hazy_sun.png"
+fi
 cd "$examples/program-python"
 "$CARLO" validate --command "python3 sampler.py" --domain disk --samples 20000
 "$CARLO" integrate --command "python3 integrand.py" -d "x=0:1,y=0:2"

@@ -38,11 +38,11 @@ Scene corner() {
   return builder.build();
 }
 
-// Sixty rooms with area or point lights and 16 images of each method. Strategies that find the lights, and samplers,
+// Thirty rooms with area or point lights and 16 images of each method. Strategies that find the lights, and samplers,
 // alternate.
 TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
   Agreement agreement;
-  for (std::uint64_t i = 0; agreement.scenes < 60; ++i) {
+  for (std::uint64_t i = 0; agreement.scenes < 30; ++i) {
     const Scene scene = RandomScene(3000 + i, i % 4 == 0 ? RandomLights::deltas : RandomLights::lamps).build();
     RenderOptions options = options_of(i, 48), much = options_of(i, 192);
     options.strategy = much.strategy = strategy_from(std::array{"mis+lt", "mis", "nee"}[i % 3]);
@@ -56,7 +56,7 @@ TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
     agreement.add(i, one, picture_means(scene, options, 16, unit),
                   2.05); // Student's t with about 28 degrees of freedom
   }
-  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: more than 10 with probability 1/3000
+  EXPECT_LE(agreement.outliers, 5); // of 30 at 5 %: more than 5 with probability 1/300
 }
 
 // Including a room in which light paths pay.
