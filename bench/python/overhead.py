@@ -2,49 +2,83 @@
 """Overhead of the Python module, as CSV: warps against C++ batches, points against SciPy, integrals against carlo.
 
 Usage: PYTHONPATH=build/bench/python bench/python/overhead.py build/bench/bench/bench_python_batch build/bench/tools/carlo
-Every time is the shortest of several runs, which alternate between the two programs.
+       [FILTER]: only rows of warps whose name contains it
+Times are CPU times, user and system, per point. Every time is the shortest of several runs, in turn with the other
+program.
 """
 
 import csv
-import io
 import json
 import subprocess
 import sys
 import tempfile
 import time
 
-import numpy as np
+import numpy
 from scipy.stats import qmc
 
 import libmc
 
 RUNS = 15
+N = 1_000_000
+
+
+def ns_of(f):
+    start = time.process_time()
+    f()
+    return (time.process_time() - start) * 1e9 / N
 
 
 def shortest(*functions):
-    best = [np.inf] * len(functions)
+    """Shortest CPU time of each [s], in turn."""
+    best = [numpy.inf] * len(functions)
     for _ in range(RUNS):
         for i, f in enumerate(functions):
-            start = time.perf_counter()
-            f()
-            best[i] = min(best[i], time.perf_counter() - start)
+            best[i] = min(best[i], ns_of(f) * N * 1e-9)
     return best
 
 
-def warps(bench):
-    rows = {}
-    for _ in range(3):
-        for row in csv.DictReader(io.StringIO(subprocess.run([bench], capture_output=True, text=True).stdout)):
-            rows[row["warp"]] = min(float(row["ns"]), rows.get(row["warp"], np.inf))
-    n = 1_000_000
-    for name, cpp in rows.items():
-        warp = eval(name, vars(libmc.warps))
-        u = libmc.samplers.random(n, warp.dim)
-        out = warp.sample(u[:, 0] if warp.dim == 1 else u)
-        u = u[:, 0].copy() if warp.dim == 1 else u
-        into, fresh = shortest(lambda: warp.sample(u, out=out), lambda: warp.sample(u))
-        yield f"{name}.sample(u, out=x)", "C++ sample_n", into / n * 1e9, cpp
-        yield f"{name}.sample(u)", "C++ sample_n", fresh / n * 1e9, cpp
+class Batches:
+    """The C++ program: ns(case, operation) runs one batch."""
+
+    def __init__(self, bench):
+        self.cases = [line.split("\t") for line in subprocess.check_output([bench, "--list"], text=True).splitlines()]
+        self.process = subprocess.Popen([bench], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def ns(self, case, operation):
+        self.process.stdin.write(f"{case}\t{operation}\n")
+        self.process.stdin.flush()
+        return float(self.process.stdout.readline())
+
+
+def calls(warp, operation):
+    """The operation with an array for the results, and without."""
+    if operation == "sample_index":
+        u = libmc.samplers.random(N, 1)[:, 0].copy()
+        return None, lambda: warp.sample_index(u)
+    u = libmc.samplers.random(N, warp.dim)
+    u = u[:, 0].copy() if warp.dim == 1 else u
+    argument = u if operation == "sample" else warp.sample(u)
+    f = getattr(warp, operation)
+    out = f(argument)
+    return lambda: f(argument, out=out), lambda: f(argument)
+
+
+def warps(bench, only):
+    batches = Batches(bench)
+    names = {**vars(libmc.warps), "numpy": numpy}
+    for case, operation in batches.cases:
+        if only not in f"{case}.{operation}":
+            continue
+        into, fresh = calls(eval(case, names), operation)
+        best = [numpy.inf] * 3
+        for _ in range(RUNS):
+            best[0] = min(best[0], batches.ns(case, operation))
+            best[1] = min(best[1], ns_of(into) if into else numpy.inf)
+            best[2] = min(best[2], ns_of(fresh))
+        if into:
+            yield f"{case}.{operation}(.., out=x)", "C++ batch", best[1], best[0]
+        yield f"{case}.{operation}(..)", "C++ batch", best[2], best[0]
 
 
 def points():
@@ -60,24 +94,25 @@ def points():
 
 def integrals(carlo):
     def f(x):
-        return np.exp(-x[:, 0] ** 2) * np.cos(x[:, 1])
+        return numpy.exp(-x[:, 0] ** 2) * numpy.cos(x[:, 1])
 
-    calls = 1 << 20
-    options = {"rel_error": 0, "abs_error": 0, "max_calls": calls, "method": "rqmc"}
+    n = 1 << 20
+    options = {"rel_error": 0, "abs_error": 0, "max_calls": n, "method": "rqmc"}
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
         command = [carlo, "integrate", "exp(-x*x)*cos(y)", "-d", "x=0:1,y=-1:2", "--rel-error", "0", "--method", "rqmc"]
-        seconds = np.inf
-        for _ in range(5):
-            subprocess.run(command + ["--max-calls", str(calls), "--threads", "1", "--json", file.name], capture_output=True)
-            seconds = min(seconds, json.load(open(file.name))["seconds"])
-    ours = min(libmc.integrate(f, [(0, 1), (-1, 2)], **options).seconds for _ in range(5))
-    yield "integrate(numpy function), one thread", "carlo integrate, one thread", ours / calls * 1e9, seconds / calls * 1e9
+        command += ["--max-calls", str(n), "--threads", "1", "--json", file.name]
+        ours = theirs = numpy.inf
+        for _ in range(RUNS):
+            ours = min(ours, ns_of(lambda: libmc.integrate(f, [(0, 1), (-1, 2)], **options)) * N)
+            subprocess.run(command, capture_output=True)
+            theirs = min(theirs, json.load(open(file.name))["seconds"] * 1e9)
+    yield "integrate(numpy function), one thread", "carlo integrate, one thread, wall time", ours / n, theirs / n
 
 
-def main(bench, carlo):
+def main(bench, carlo, only=""):
     out = csv.writer(sys.stdout, lineterminator="\n")
     out.writerow(["what", "against", "ns", "ns_against", "ratio"])
-    for rows in (warps(bench), points(), integrals(carlo)):
+    for rows in (warps(bench, only),) if only else (warps(bench, ""), points(), integrals(carlo)):
         for what, against, ours, theirs in rows:
             out.writerow([what, against, f"{ours:.2f}", f"{theirs:.2f}", f"{ours / theirs:.2f}"])
             sys.stdout.flush()

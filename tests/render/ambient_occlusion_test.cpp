@@ -17,7 +17,7 @@ using namespace render;
 constexpr double everywhere = HUGE_VAL;
 
 void expect_open(const Scene& scene, const Ray& ray, double reach, double expected, const std::string& what) {
-  const mc::Moments moments = support::traced(scene, ray, Aov(Aov::ambient_occlusion, reach), 20'000);
+  const mc::Moments moments = support::aov_samples(scene, ray, Aov(Aov::ambient_occlusion, reach), 20'000);
   if (moments.std_error() == 0) EXPECT_EQ(moments.mean(), expected) << what;
   else EXPECT_GE(mc::t_test(moments, expected).p, 1e-6) << what << ": " << moments.mean() << " for " << expected;
 }

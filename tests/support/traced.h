@@ -32,7 +32,7 @@ mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::Pat
 
 /// Moments of another quantity.
 template <class Scene>
-mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::Aov& aov, int n, int channel = 0) {
+mc::Moments aov_samples(const Scene& scene, const render::Ray& ray, const render::Aov& aov, int n, int channel = 0) {
   return samples_of(render::AovIntegrator<Scene>(scene, aov), ray, n, channel);
 }
 

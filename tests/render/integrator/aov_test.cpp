@@ -18,9 +18,9 @@ TEST(AovIntegrator, ShowsNormals) {
   const Scene scene = builder.build();
   const Vec3 n = Vec3(1, -2, 3).normalized();
   for (int channel = 0; channel < 3; ++channel) {
-    EXPECT_NEAR(support::traced(scene, {Vec3(5 * n), Vec3(-n)}, Aov::normals, 10, channel).mean(),
+    EXPECT_NEAR(support::aov_samples(scene, {Vec3(5 * n), Vec3(-n)}, Aov::normals, 10, channel).mean(),
                 (double(n[channel]) + 1) / 2, 1e-5);
-    EXPECT_NEAR(support::traced(scene, {Vec3(5 * n), n}, Aov::normals, 10, channel).mean(), 0.3, 1e-6);
+    EXPECT_NEAR(support::aov_samples(scene, {Vec3(5 * n), n}, Aov::normals, 10, channel).mean(), 0.3, 1e-6);
   }
 }
 

@@ -165,11 +165,11 @@ TEST(Visibility, AovsThroughMask_MatchClosedForm) {
   builder.add(TriangleMesh::rectangle(Transform::scale({1e4, 1e4, 1})), {builder.add(gray(0.5))});
   const Scene scene = builder.build();
   const Ray below{Vec3(0, 0, Float(0.5)), Vec3(0, 0, -1)}, above{Vec3(0, 0, 2), Vec3(1, 0, -10).normalized()};
-  EXPECT_NEAR(support::traced(scene, below, Aov(Aov::ambient_occlusion), 1000).mean(), 0.7, 1e-4);
+  EXPECT_NEAR(support::aov_samples(scene, below, Aov::ambient_occlusion, 1000).mean(), 0.7, 1e-4);
   // Plate and floor have the normal +z, and its blue is 1. So the opacity does not matter.
-  EXPECT_NEAR(support::traced(scene, above, Aov(Aov::normals), 100, 2).mean(), 1, 1e-6);
+  EXPECT_NEAR(support::aov_samples(scene, above, Aov::normals, 100, 2).mean(), 1, 1e-6);
   // A share of .3 of the rays from above hits the unoccluded plate; the others hit the floor below it.
-  const mc::Moments m = support::traced(scene, above, Aov(Aov::ambient_occlusion), 20'000);
+  const mc::Moments m = support::aov_samples(scene, above, Aov::ambient_occlusion, 20'000);
   EXPECT_GE(mc::t_test(m, 0.3 + 0.7 * 0.7).p, 1e-6) << m.mean() << " +- " << m.std_error();
 }
 

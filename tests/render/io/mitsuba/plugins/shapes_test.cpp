@@ -59,6 +59,16 @@ TEST_F(ShapePlugins, ARectangleShinesFromTheOtherSideWhenItsNormalIsFlipped) {
     }
 }
 
+TEST_F(ShapePlugins, ADiskIsTheUnitDiskUnderToWorld) {
+  for (const bool flipped : {false, true}) {
+    const std::string flip = fmt::format("<boolean name=\"flipNormals\" value=\"{}\"/>", flipped);
+    const auto file = shape("disk", R"(<transform name="toWorld"><scale x="3" y="2"/></transform>)" + flip);
+    const render::Shape& disk = *file.scene.surfaces()[0].shape;
+    EXPECT_NEAR(disk.area(), 6 * 3.14159265358979, 1e-12);
+    EXPECT_EQ(disk.sample_area({0.2f, 0.3f})->ng, render::Vec3(0, 0, flipped ? -1 : 1));
+  }
+}
+
 // The seam is at +x in Mitsuba and at -x in lajolla. The difference is visible for a fractional number of repetitions.
 TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
   for (const bool is_lajolla : {false, true}) {
