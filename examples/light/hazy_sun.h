@@ -24,6 +24,16 @@ class HazySun {
   }
   Float pdf(const Vec3&, const Vec3& wi, const render::SurfacePoint*) const { return lobe_.pdf(wi); }
 
+  // First rays of light paths, and their density.
+  std::optional<render::EmissionSample> sample_emission(const render::EmissionTargets& targets, const render::Vec2& u,
+                                                        const render::Vec2& v) const {
+    return render::sample_infinite_emission(*this, targets, u, v);
+  }
+  double emission_pdf(const render::EmissionTargets& targets, const Vec3& ref, const Vec3& wi,
+                      const render::SurfacePoint* light_point) const {
+    return double(pdf(ref, wi, light_point)) * targets.parallel_pdf(ref, wi);
+  }
+
   double power(double radius) const { return mc::pi<double> * radius * radius * double(render::luminance(total_)); }
   double irradiance(const Vec3&) const { return double(render::luminance(total_)); }
   bool is_delta() const { return false; }

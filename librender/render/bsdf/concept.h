@@ -34,7 +34,7 @@ struct Lobes {
 
   /// Whether all lobes are delta lobes.
   bool is_delta() const { return roughness == 0; }
-  /// Lobes of a smaller roughness are narrower than lights: they fill less than about 1e-6 sr, and the sun fills 7e-5 sr.
+  /// Lobes of a smaller roughness are narrower than lights: they fill less than about 1e-6 sr, the sun 7e-5 sr.
   static constexpr Float near_specular_roughness = Float(2e-4);
   /// Whether all lobes are delta lobes or narrower than lights. Such lobes connect to delta lights only.
   bool is_near_specular() const { return roughness < near_specular_roughness; }
@@ -49,7 +49,7 @@ struct Lobes {
 ///   eval(wo, wi)      : f [1/sr] without the cosine, delta lobes excluded.
 ///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded.
 ///   eta(wo, wi)       : index of refraction on the side of wi over the index on the side of wo, delta lobes excluded.
-///   albedo(wo)        : approximate share of light from wo that is scattered, in [0, 1]; the largest over the channels.
+///   albedo(wo)        : approximate share of light from wo that is scattered, in [0, 1]; the largest channel.
 ///   lobes()           : kinds of its lobes.
 template <class T>
 concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {

@@ -17,8 +17,8 @@ struct LightConnection {
   LightSample sample;  ///< Direction, and point of the light.
 };
 
-/// Connects a vertex to a point of one light, which the scene's light sampler selects. Returns nothing if no light
-/// arrives.
+/// Connects a vertex to a point of one light, which the scene's light sampler selects; the scene must have one. Returns
+/// nothing if no light arrives.
 ///   mixture : direction sampling of the path, for the MIS weight.
 ///   rays    : counts the rays traced.
 template <class SceneType, class B, class Stream>

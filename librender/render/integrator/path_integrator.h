@@ -131,7 +131,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   void trace(PathState& state, bool splits, Stream& stream, std::uint64_t& rays,
              const AddRadiance& add_radiance) const {
     Vertex vertex;
-    for (;;) {
+    while (state.edges != max_depth_) {
       if (!state.beta.isFinite().all()) [[unlikely]]
         return add_radiance(RadianceContribution{state.beta}); // the caller counts an invalid sample
       // Find the next vertex, and add its emission with its MIS weight.

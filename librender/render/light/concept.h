@@ -50,7 +50,7 @@ concept LightLike = requires(const T l, Vec3 ref, Vec3 wi, Vec2 u, const Surface
   { l.is_sampled() } -> std::convertible_to<bool>;
 };
 
-/// Sample_emission() of a light at infinity: a direction as the light samples it, and a place across it.
+/// The sample_emission() of a light at infinity: a direction as the light samples it, and a place across it.
 template <class L>
 std::optional<EmissionSample> sample_infinite_emission(const L& light, const EmissionTargets& targets, const Vec2& u,
                                                        const Vec2& v) {

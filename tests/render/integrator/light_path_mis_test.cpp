@@ -33,36 +33,37 @@ TEST(LightPathMis, HitsAndConnections_CompeteWithTheSameLightPaths) {
   mc::Pcg random(3);
   for (int i = 0; i < 100; ++i) {
     const auto number = [&] { return random.uniform<Float>(); };
-    const Vec3 first(number() - 1, number() - 1, 0), second(number(), number(), 0);
+    const Vec3 eye = scene.camera().origin().cast<Float>(), first(number() - 1, number() - 1, 0),
+               second(number(), number(), Float(0.1));
     const SurfacePoint lamp = *scene.surfaces()[1].shape->sample_area({number(), number()});
-    const Vec3 eye = scene.camera().origin().cast<Float>(), d = (lamp.p - second).normalized();
-    SurfacePoint floor;
-    floor.ng = floor.ns = Vec3::UnitZ();
-    const auto at = [&](const Vec3& p, const Vec3& from) {
-      floor.p = p;
-      return ShadingPoint<Bsdf>{scene.bsdf(scene.surfaces()[0]), floor, mc::Frame<Float>::from_z(floor.ns),
-                                (from - p).normalized()};
+    const Vec3 d0 = (first - eye).normalized(), d1 = (second - first).normalized(), d2 = (lamp.p - second).normalized();
+    // A vertex at p with directions to both of its neighbours on the side of its normal.
+    const auto point_between = [](const Vec3& p, const Vec3& to_previous, const Vec3& to_next) {
+      SurfacePoint point;
+      point.p = p;
+      point.ng = point.ns = (to_previous + to_next).normalized();
+      return point;
     };
-    PartialMisWeight partial_mis = mis.start((first - eye).normalized());
-    const auto isect = at(first, eye);
-    mis.arrive(partial_mis, 1, eye, (first - eye).normalized(), floor);
-    LightConnection light{Spectrum::Ones(), 1, Float(0.7), 0, {d, Spectrum::Ones(), 1, lamp}};
-    EXPECT_EQ(mis.direct_ratio(partial_mis, 1, isect, light), 0);
-    EXPECT_EQ(mis.emission_ratio(partial_mis, 2, 0, &lamp, first, d), 0);
-
-    // A path along the floor would have a cosine of 0, so the second vertex is above it.
-    const Vec3 above = second + Vec3(0, 0, Float(0.1)), onward = (above - first).normalized();
-    mis.scatter(partial_mis, 1, isect, onward, Float(0.3), 1);
-    const auto next = at(above, first);
-    mis.arrive(partial_mis, 2, first, onward, floor);
-    const Vec3 wi = light.sample.wi = (lamp.p - above).normalized();
-    const double by_connection = mis.direct_ratio(partial_mis, 2, next, light);
+    const SurfacePoint one = point_between(first, -d0, d1), two = point_between(second, -d1, d2);
+    const auto isect = [&](const SurfacePoint& point, const Vec3& wo) {
+      const auto frame = mc::Frame<Float>::from_z(point.ns);
+      return ShadingPoint<Bsdf>{scene.bsdf(scene.surfaces()[0]), point, frame, frame.to_local(wo)};
+    };
+    const LightConnection light{Spectrum::Ones(), 1, Float(0.7), 0, {d2, Spectrum::Ones(), 1, lamp}};
     const Float pdf = Float(0.2);
-    mis.scatter(partial_mis, 2, next, wi, pdf, 1);
-    mis.arrive(partial_mis, 3, above, wi, lamp);
-    const double by_hit = mis.emission_ratio(partial_mis, 3, 0, &lamp, above, wi);
-    EXPECT_GT(by_hit, 0);
-    EXPECT_NEAR(by_connection * mc::sqr(double(light.pdf)) / (by_hit * mc::sqr(double(pdf))), 1, 1e-4);
+
+    PartialMisWeight partial_mis = mis.start(d0);
+    mis.arrive(partial_mis, 1, eye, d0, one);
+    EXPECT_EQ(mis.direct_ratio(partial_mis, 1, isect(one, -d0), light), 0);
+    EXPECT_EQ(mis.emission_ratio(partial_mis, 2, 0, &lamp, first, d1), 0);
+    mis.scatter(partial_mis, 1, isect(one, -d0), d1, Float(0.3), 1);
+    mis.arrive(partial_mis, 2, first, d1, two);
+    const double ratio_of_nee = mis.direct_ratio(partial_mis, 2, isect(two, -d1), light);
+    mis.scatter(partial_mis, 2, isect(two, -d1), d2, pdf, 1);
+    mis.arrive(partial_mis, 3, second, d2, lamp);
+    const double ratio_of_hit = mis.emission_ratio(partial_mis, 3, 0, &lamp, second, d2);
+    EXPECT_GT(ratio_of_hit, 0);
+    EXPECT_NEAR(ratio_of_nee * mc::sqr(double(light.pdf)) / (ratio_of_hit * mc::sqr(double(pdf))), 1, 1e-4);
   }
 }
 
