@@ -3,6 +3,7 @@
 #include <gallery/strategy_strip.h>
 #include <options/files.h>
 #include <options/memory_option.h>
+#include <options/picture_output.h>
 #include <options/pixels.h>
 #include <options/run_session.h>
 #include <picture/picture.h>
@@ -34,7 +35,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <string_view>
 #include <tuple>
@@ -73,28 +73,13 @@ std::string output_of(const RenderCommandOptions& options) {
   return name + (options.compare_strategies ? "-strategies.png" : ".exr");
 }
 
-// Tries the folder before hours of rendering, not after.
-void check_output(const std::string& path) {
-  mc::require_writable(path);
-  const std::string extension = mc::lowercase_extension(path);
-  mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
-              "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
-}
-
 bool has_extension(const std::string& path, const char* extension) {
   return mc::lowercase_extension(path) == extension;
 }
 
 // The tone of a PNG, except for an exposure that depends on the picture.
 render::ToneMapping tone_of(const RenderCommandOptions& options, const GalleryScene* named) {
-  render::ToneMapping tone = named ? tone_of(*named) : render::ToneMapping();
-  if (!options.tone.empty()) tone.curve = render::tone_curve_from(options.tone);
-  if (options.exposure.empty() || options.exposure == "auto") return tone;
-  char rest = 0;
-  mc::require(std::sscanf(options.exposure.c_str(), "%lf%c", &tone.exposure, &rest) == 1 &&
-                  std::abs(tone.exposure) <= 100,
-              "--exposure '{}' must be a number of stops in [-100, 100], or auto", options.exposure);
-  return tone;
+  return parse_tone(options.tone, options.exposure, named ? tone_of(*named) : render::ToneMapping());
 }
 
 // The pixels to render.
@@ -223,8 +208,8 @@ std::string warn_where_light_is_missed(const render::SceneFile& read, const rend
 
 // Throws Error for outputs that cannot be written.
 void check_outputs(const RenderCommandOptions& options, const std::string& output) {
-  check_output(output);
-  if (!options.intervals.empty()) check_output(options.intervals);
+  require_picture_output(output);
+  if (!options.intervals.empty()) require_picture_output(options.intervals);
   mc::require(!options.layers || has_extension(output, ".exr"), "--layers: '{}' cannot store them; write an .exr",
               output);
 }

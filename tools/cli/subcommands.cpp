@@ -13,6 +13,7 @@ namespace carlo {
   row(render);                                                                                                         \
   row(gallery);                                                                                                        \
   row(merge);                                                                                                          \
+  row(image);                                                                                                          \
   row(view);                                                                                                           \
   row(compare);                                                                                                        \
   row(worker)

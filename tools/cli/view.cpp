@@ -3,6 +3,7 @@
 #include <options/memory_option.h>
 #include <options/pixels.h>
 #include <options/subcommand.h>
+#include <picture/crop.h>
 #include <picture/difference.h>
 #include <report/validate_page.h>
 #include <report/view_page.h>
@@ -43,27 +44,6 @@ std::vector<Option> rows(ViewCommandOptions& o) {
   });
 }
 
-void cut(render::Image& image, const render::Crop& part, const std::string& name) {
-  mc::require(part.x >= 0 && part.y >= 0 && part.width > 0 && part.height > 0 && part.x + part.width <= image.width &&
-                  part.y + part.height <= image.height,
-              "--crop {},{},{},{} must lie within the {}x{} pixels of '{}'", part.x, part.y, part.width, part.height,
-              image.width, image.height, name);
-  const auto keep = [&]<class T>(std::vector<T>& all) {
-    if (all.empty()) return;
-    std::vector<T> kept;
-    for (int y = part.y; y < part.y + part.height; ++y) {
-      const auto row = all.begin() + static_cast<std::ptrdiff_t>(image.index(part.x, y));
-      kept.insert(kept.end(), row, row + part.width);
-    }
-    all = std::move(kept);
-  };
-  keep(image.pixels);
-  keep(image.variance);
-  for (auto& [layer, numbers] : image.layers) keep(numbers);
-  image.width = part.width;
-  image.height = part.height;
-}
-
 // The results of carlo validate --json as its page, without the maps that only --report has.
 std::string results_page(const std::string& file) {
   const nlohmann::json results = nlohmann::json::parse(mc::read_file(file), nullptr, false);
@@ -83,7 +63,7 @@ std::string pictures_page(const ViewCommandOptions& o) {
   for (render::Image& image : images)
     if (!o.crop.empty()) {
       const render::Crop part = parse_crop(o.crop);
-      cut(image, part, files[static_cast<std::size_t>(&image - images.data())]);
+      crop_picture(image, part, files[static_cast<std::size_t>(&image - images.data())]);
       page.x = part.x;
       page.y = part.y;
     }
