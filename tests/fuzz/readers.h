@@ -16,7 +16,8 @@ struct Reader {
   void (*read)(const std::string& path);
 };
 
-inline constexpr std::array<Reader, 9> readers = {{
+inline constexpr std::array<Reader, 12> readers = {{
+    {"bmp", [](const std::string& p) { render::formats::read_bmp(p); }},
     {"exr", [](const std::string& p) { render::formats::read_exr(p); }},
     {"hdr", [](const std::string& p) { render::formats::read_hdr(p); }},
     {"jpg", [](const std::string& p) { render::formats::read_jpeg(p); }},
@@ -24,7 +25,9 @@ inline constexpr std::array<Reader, 9> readers = {{
     {"pfm", [](const std::string& p) { render::formats::read_pfm(p); }},
     {"ply", [](const std::string& p) { render::to_shape(render::read_ply(p), {}); }},
     {"png", [](const std::string& p) { render::formats::read_png(p); }},
+    {"ppm", [](const std::string& p) { render::formats::read_ppm(p); }},
     {"serialized", [](const std::string& p) { render::to_shape(render::read_serialized(p, 0), {}); }},
+    {"tga", [](const std::string& p) { render::formats::read_tga(p); }},
     {"xml", [](const std::string& p) { render::read_mitsuba(p); }},
 }};
 

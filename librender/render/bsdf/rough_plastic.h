@@ -8,22 +8,38 @@
 #include <mc/warp/hemisphere.h>
 
 #include <numbers>
+#include <optional>
 
 namespace render {
 
-/// White base under a coat, as in Mitsuba with nonlinear = false.
+/// Colour of the light that leaves the base after reflections between coat and base.
+enum class InternalReflections {
+  linear,   ///< The base keeps its colour.
+  nonlinear ///< Every reflection multiplies the colour, so that colours are darker and more saturated.
+};
+
+/// White base under a coat, as in Mitsuba.
 ///   value  : T(wo) T(wi) / (pi mean T) [1/sr] with the transmittance T of the rough coat. Division by the mean
 ///            accounts for light that the coat reflects back to the base, so that the base returns all transmitted
 ///            light. Mitsuba 3 accounts for a single internal reflection instead, and its base becomes darker with the
 ///            coat's roughness.
-///   Source : Mitsuba 0.6, roughplastic.
+///   colour : the factor of `value` for a base of albedo rho: rho, or rho (1 - F) / (1 - rho F) with nonlinear
+///            reflections. F is the reflectance of the coat for diffuse light from inside, by reciprocity
+///            1 - mean T / eta^2.
+///   Source : Mitsuba 0.6, plastic and roughplastic.
 class LayeredBase {
  public:
   /// A base under a coat of the relative index eta.
   ///   alpha : roughness of the coat; 0: smooth.
-  LayeredBase(Float eta, Float alpha) : coat_(eta, alpha) {
-    if (coat_.mean_transmitted() > 0) scale_ = std::numbers::inv_pi_v<Float> / coat_.mean_transmitted();
+  LayeredBase(Float eta, Float alpha, InternalReflections internal = InternalReflections::linear) : coat_(eta, alpha) {
+    const Float mean = coat_.mean_transmitted();
+    if (!(mean > 0)) return;
+    scale_ = std::numbers::inv_pi_v<Float> / mean;
+    if (internal == InternalReflections::nonlinear) internal_ = std::max(1 - mean / (eta * eta), Float(0));
   }
+
+  /// Colour of the base of the given albedo, seen through the coat.
+  Spectrum color(const Spectrum& albedo) const { return albedo * (1 - internal_) / (1 - albedo * internal_); }
 
   /// BSDF of the white base [1/sr].
   Float value(const Reflection& r, Float) const {
@@ -34,7 +50,7 @@ class LayeredBase {
 
  private:
   RoughFresnel coat_;
-  Float scale_ = 0;
+  Float scale_ = 0, internal_ = 0; ///< F for nonlinear reflections, else 0
 };
 
 /// White base of lajolla's plastic. It ignores the coat's transmittance at wo and wi.
@@ -44,7 +60,10 @@ class LayeredBase {
 class LajollaBase {
  public:
   /// A base under a coat of the relative index eta.
-  LajollaBase(Float eta, Float) : eta_(eta) {}
+  LajollaBase(Float eta, Float, InternalReflections = InternalReflections::linear) : eta_(eta) {}
+
+  /// Colour of the base: its albedo.
+  Spectrum color(const Spectrum& albedo) const { return albedo; }
 
   /// BSDF of the white base [1/sr].
   Float value(const Reflection&, Float f) const { return mc::sqr(1 - f) * std::numbers::inv_pi_v<Float>; }
@@ -61,7 +80,7 @@ class LajollaBase {
 /// Common part of RoughPlastic and SmoothPlastic: index of refraction, base, and colours of coat and base.
 template <class Base> class CoatedDiffuse {
  public:
-  /// Colour of the base.
+  /// Colour of the base, seen through the coat.
   const Spectrum& diffuse() const { return diffuse_; }
   /// Colour of the coat.
   const Spectrum& specular() const { return specular_; }
@@ -76,18 +95,23 @@ template <class Base> class CoatedDiffuse {
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
   /// name : material name for error messages.
-  CoatedDiffuse(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(checked_ior(name, eta)), base_(eta, alpha) {
+  CoatedDiffuse(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular,
+                InternalReflections internal)
+      : eta_(checked_ior(name, eta)), base_(eta, alpha, internal) {
     set_colors(checked_reflectance(name + ": diffuseReflectance", diffuse),
                checked_reflectance(name + ": specularReflectance", specular));
   }
 
-  /// Replaces the colours of base and coat.
-  void set_colors(const Spectrum& diffuse, const Spectrum& specular) {
-    diffuse_ = diffuse;
-    specular_ = specular;
-    diffuse_y_ = luminance(diffuse);
-    specular_y_ = luminance(specular);
+  /// Replaces the albedo of the base and the colour of the coat, where they are given.
+  void set_colors(const std::optional<Spectrum>& diffuse, const std::optional<Spectrum>& specular) {
+    if (diffuse) {
+      diffuse_ = base_.color(*diffuse);
+      diffuse_y_ = luminance(diffuse_);
+    }
+    if (specular) {
+      specular_ = *specular;
+      specular_y_ = luminance(specular_);
+    }
   }
   /// Probability of sampling the coat: its share of the reflected light.
   Float specular_probability(const Vec3& wo) const {
@@ -118,8 +142,9 @@ template <class Base> class CoatedDiffuse {
 template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Base> {
  public:
   /// Paint with a coat of relative index eta and roughness alpha.
-  RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : CoatedDiffuse<Base>("rough plastic", eta, alpha, diffuse, specular), facets_(alpha) {}
+  RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular,
+               InternalReflections internal = InternalReflections::linear)
+      : CoatedDiffuse<Base>("rough plastic", eta, alpha, diffuse, specular, internal), facets_(alpha) {}
 
   std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float uc, const Vec2& u) const {
     const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);
@@ -149,8 +174,8 @@ template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Ba
     const Float share = specular_probability(r->wo);
     return share * facets_.visible_normals(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
-  /// The same paint with other colours. The caller ensures that they lie in [0, 1].
-  RoughPlastic with_colors(const Spectrum& diffuse, const Spectrum& specular) const {
+  /// The same paint with other colours, where they are given. The caller ensures that they lie in [0, 1].
+  RoughPlastic with_colors(const std::optional<Spectrum>& diffuse, const std::optional<Spectrum>& specular) const {
     RoughPlastic paint = *this;
     paint.set_colors(diffuse, specular);
     return paint;

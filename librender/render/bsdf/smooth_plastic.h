@@ -14,8 +14,9 @@ namespace render {
 template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<Base> {
  public:
   /// Paint with a coat of relative index eta.
-  SmoothPlastic(Float eta, const Spectrum& diffuse, const Spectrum& specular)
-      : CoatedDiffuse<Base>("plastic", eta, 0, diffuse, specular) {}
+  SmoothPlastic(Float eta, const Spectrum& diffuse, const Spectrum& specular,
+                InternalReflections internal = InternalReflections::linear)
+      : CoatedDiffuse<Base>("plastic", eta, 0, diffuse, specular, internal) {}
 
   std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float uc, const Vec2& u) const {
     const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);
@@ -39,8 +40,8 @@ template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<B
     const auto r = reflection(wo, wi);
     return r ? mc::Bernoulli<Float>(specular_probability(r->wo)).pmf(0) * r->wi.z() * inv_pi : Float(0);
   }
-  /// The same paint with other colours. The caller ensures that they lie in [0, 1].
-  SmoothPlastic with_colors(const Spectrum& diffuse, const Spectrum& specular) const {
+  /// The same paint with other colours, where they are given. The caller ensures that they lie in [0, 1].
+  SmoothPlastic with_colors(const std::optional<Spectrum>& diffuse, const std::optional<Spectrum>& specular) const {
     SmoothPlastic paint = *this;
     paint.set_colors(diffuse, specular);
     return paint;

@@ -21,10 +21,11 @@ template <class Plastic> class TexturedPlastic {
   const Plastic& untextured() const { return untextured_; }
   /// The BSDF at uv, with colours of at most 1: interpolation may round above 1.
   Plastic at(const Vec2d& uv) const {
-    const auto color = [&](const std::optional<Texture>& texture, const Spectrum& constant) {
-      return texture ? Spectrum(texture->eval(uv).min(Float(1))) : constant;
+    const auto color = [&](const std::optional<Texture>& texture) -> std::optional<Spectrum> {
+      if (!texture) return {};
+      return Spectrum(texture->eval(uv).min(Float(1)));
     };
-    return untextured_.with_colors(color(diffuse_, untextured_.diffuse()), color(specular_, untextured_.specular()));
+    return untextured_.with_colors(color(diffuse_), color(specular_));
   }
 
  private:

@@ -1,8 +1,12 @@
 #include <render/texture/bitmap.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace render {
 
-Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map) : texels_(std::move(texels)), map_(map) {
+Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map, Wrap wrap, TexelFilter filter)
+    : texels_(std::move(texels)), map_(map), wrap_(wrap), filter_(filter) {
   texels_->require_all("bitmap", "is not finite; repair the picture",
                        [](const Spectrum& s) { return s.isFinite().all(); });
 }
@@ -21,23 +25,49 @@ void Bitmap::require_reflectance(std::string_view what) const {
 
 namespace {
 
-// The two texels next to a coordinate in [0, n), which wraps around, and the weight of the second texel.
+// The coordinate in [0, 1], or in [0, 1) where the image repeats.
+double wrapped(double x, Wrap wrap) {
+  switch (wrap) {
+  case Wrap::repeat: return UvMap::fraction(x);
+  case Wrap::clamp: return x > 0 ? std::min(x, 1.0) : 0; // 0 for NaN
+  case Wrap::mirror: break;
+  }
+  const double folded = 2 * UvMap::fraction(x / 2);
+  return folded <= 1 ? folded : 2 - folded;
+}
+
+// The two texels next to a coordinate in [0, 1], and the weight of the second texel. One texel counts twice at the edge
+// of an image that does not repeat, and everywhere without interpolation.
 struct Neighbours {
   std::size_t first, second;
   Float weight;
-  Neighbours(double place, int n) {
+  Neighbours(double x, int n, Wrap wrap, TexelFilter filter) {
+    const double place = wrapped(x, wrap) * n;
+    if (filter == TexelFilter::nearest) {
+      first = second = static_cast<std::size_t>(std::min(static_cast<int>(place), n - 1));
+      weight = 0;
+      return;
+    }
+    const bool repeats = wrap == Wrap::repeat;
     const double shifted = place - 0.5, below = std::floor(shifted);
     weight = Float(shifted - below);
-    first = static_cast<std::size_t>(below < 0 ? n - 1 : static_cast<int>(below));
-    second = first + 1 == static_cast<std::size_t>(n) ? 0 : first + 1;
+    const std::size_t last = static_cast<std::size_t>(n - 1);
+    if (below < 0) {
+      first = repeats ? last : 0;
+      second = 0;
+      return;
+    }
+    first = static_cast<std::size_t>(below);
+    second = first + 1;
+    if (first == last) second = repeats ? 0 : last;
   }
 };
 
 } // namespace
 
 Spectrum Bitmap::eval(const Vec2d& uv) const {
-  const Vec2d p = map_(uv);
-  const Neighbours x(p[0] * texels_->width, texels_->width), y(p[1] * texels_->height, texels_->height);
+  const Vec2d p = map_.unwrapped(uv);
+  const Neighbours x(p[0], texels_->width, wrap_, filter_), y(p[1], texels_->height, wrap_, filter_);
   const auto row = [&](std::size_t j) -> Spectrum {
     const Spectrum* texels = &texels_->values[j * static_cast<std::size_t>(texels_->width)];
     return (1 - x.weight) * texels[x.first] + x.weight * texels[x.second];

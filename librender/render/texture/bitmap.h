@@ -8,13 +8,24 @@
 
 namespace render {
 
-/// An image, interpolated bilinearly and repeated. Texel centres are at ((x + 1/2) / width, (y + 1/2) / height); v = 0
-/// is the upper edge of the top row.
+/// Values of an image beyond its edges.
+enum class Wrap {
+  repeat, ///< The image repeats.
+  clamp,  ///< The values at the edge continue.
+  mirror  ///< The image repeats, every other copy reversed.
+};
+
+/// Values between texel centres.
+enum class TexelFilter { bilinear, nearest };
+
+/// An image, interpolated and continued beyond its edges. Texel centres are at ((x + 1/2) / width, (y + 1/2) / height);
+/// v = 0 is the upper edge of the top row.
 ///   throws : Error unless all texels are finite.
 class Bitmap {
  public:
   /// A texture over the given texels.
-  explicit Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map = UvMap());
+  explicit Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map = UvMap(), Wrap wrap = Wrap::repeat,
+                  TexelFilter filter = TexelFilter::bilinear);
 
   /// Colour at uv.
   Spectrum eval(const Vec2d& uv) const;
@@ -24,6 +35,8 @@ class Bitmap {
  private:
   std::shared_ptr<const Texels> texels_;
   UvMap map_;
+  Wrap wrap_;
+  TexelFilter filter_;
 };
 
 } // namespace render

@@ -23,16 +23,18 @@ class UvMap {
   }
   /// The mapped coordinates.
   Vec2d operator()(const Vec2d& uv) const {
-    const Vec2d moved = uv.cwiseProduct(scale_) + offset_;
+    const Vec2d moved = unwrapped(uv);
     return {fraction(moved[0]), fraction(moved[1])};
   }
-
- private:
-  // Rounds the fraction of -1e-20 to just below 1 instead of 1. The fraction of infinity is 0.
+  /// uv * scale + offset.
+  Vec2d unwrapped(const Vec2d& uv) const { return uv.cwiseProduct(scale_) + offset_; }
+  /// frac(x) in [0,1). Rounds the fraction of -1e-20 to just below 1 instead of 1. The fraction of infinity is 0.
   static double fraction(double x) {
     const double f = x - std::floor(x);
     return f >= 0 ? std::min(f, 1 - 0x1p-53) : 0;
   }
+
+ private:
   Vec2d scale_, offset_;
 };
 

@@ -78,4 +78,30 @@ TEST(SmoothPlastic, RefusesNonsense) {
               testing::HasSubstr("plastic: specularReflectance (-1, -1, -1) must lie in [0, 1]"));
 }
 
+// The base and the inside of the coat reflect light in turn: rho (1 + rho F + (rho F)^2 + ...). A white base returns
+// all light. With linear reflections, F counts for every colour as for white.
+TEST(SmoothPlastic, NonlinearReflectionsTakeTheColourEachTime) {
+  for (const double eta : {1.3, 1.49, 1.9}) {
+    double inside = 0; // reflectance of the coat for diffuse light from inside
+    constexpr int n = 20000;
+    for (int i = 0; i < n; ++i) {
+      const double cosine = (i + 0.5) / n;
+      inside += 2 * cosine * double(fresnel_dielectric(Float(cosine), Float(1 / eta)).reflectance) / n;
+    }
+    const SmoothPlastic<> linear(Float(eta), green_base, all_light),
+        nonlinear(Float(eta), green_base, all_light, InternalReflections::nonlinear),
+        white(Float(eta), all_light, all_light, InternalReflections::nonlinear);
+    const Vec3 wo = support::at_degrees(30), wi = support::at_degrees(-50);
+    for (int c = 0; c < 3; ++c) {
+      const double rho = double(green_base[c]), series = rho / (1 - rho * inside), white_series = rho / (1 - inside);
+      EXPECT_NEAR(nonlinear.eval(wo, wi)[c] / linear.eval(wo, wi)[c], series / white_series, 2e-3) << eta << " " << c;
+    }
+    EXPECT_NEAR(support::albedo(white, 0.7), 1, 1e-3) << eta;
+    const auto report = mc::check_bsdf<Float>(nonlinear, wo, {.statistics = {.samples = 50'000, .alpha = 1e-5}});
+    EXPECT_TRUE(report.passed()) << report.to_string();
+    EXPECT_TRUE(nonlinear.with_colors({}, {}).eval(wo, wi).isApprox(nonlinear.eval(wo, wi))) << "not applied twice";
+    EXPECT_TRUE(nonlinear.with_colors(green_base, {}).eval(wo, wi).isApprox(nonlinear.eval(wo, wi)));
+  }
+}
+
 } // namespace

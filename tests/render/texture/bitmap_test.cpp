@@ -57,6 +57,41 @@ TEST(BitmapTexture, ContinuousBoundedAndOfTheTexelsMean) {
   }
 }
 
+// Coordinates of the texels of the row 1, 2, 5, far on both sides of the image.
+TEST(BitmapTexture, ContinuesBeyondItsEdges) {
+  using render::Wrap, render::TexelFilter;
+  const auto row = [](Wrap wrap, TexelFilter filter, const render::UvMap& map = render::UvMap()) {
+    return Bitmap(texels(3, 1, {grey(1), grey(2), grey(5)}), map, wrap, filter);
+  };
+  const auto value = [](const Bitmap& b, double texel) { return double(b.eval({(texel + 0.5) / 3, 0.5})[0]); };
+  for (const TexelFilter filter : {TexelFilter::bilinear, TexelFilter::nearest}) {
+    const Bitmap repeat = row(Wrap::repeat, filter), clamp = row(Wrap::clamp, filter),
+                 mirror = row(Wrap::mirror, filter);
+    const double repeated[] = {1, 2, 5}, mirrored[] = {1, 2, 5, 5, 2, 1};
+    for (int i = -12; i < 12; ++i) {
+      EXPECT_NEAR(value(repeat, i), repeated[(i + 12) % 3], 1e-5) << i;
+      EXPECT_NEAR(value(clamp, i), i <= 0 ? 1 : i == 1 ? 2 : 5, 1e-5) << i;
+      EXPECT_NEAR(value(mirror, i), mirrored[(i + 12) % 6], 1e-5) << i;
+    }
+  }
+  EXPECT_NEAR(value(row(Wrap::repeat, TexelFilter::bilinear), -0.25), 2, 1e-6) << "a quarter of 5, the rest 1";
+  EXPECT_EQ(value(row(Wrap::clamp, TexelFilter::bilinear), -0.25), 1);
+  EXPECT_EQ(value(row(Wrap::mirror, TexelFilter::bilinear), -0.25), 1);
+  EXPECT_EQ(value(row(Wrap::mirror, TexelFilter::bilinear), 2.5), 5);
+  EXPECT_NEAR(value(row(Wrap::mirror, TexelFilter::bilinear), 3.75), 2.75, 1e-6);
+  EXPECT_EQ(value(row(Wrap::clamp, TexelFilter::nearest), 0.49), 1);
+  EXPECT_EQ(value(row(Wrap::clamp, TexelFilter::nearest), 0.51), 2);
+  // A product that overflows has some value of the image.
+  for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::mirror})
+    for (const TexelFilter filter : {TexelFilter::bilinear, TexelFilter::nearest})
+      for (const double far : {-1e300, -1e18, -3.0, 0.0, 1.0, 2.0, 3.0, 1e18, 1e300}) {
+        const double got = double(row(wrap, filter, render::UvMap({1e300, 1}, {0, 0})).eval({far, far})[0]),
+                     near = double(row(wrap, filter).eval({far, far})[0]);
+        EXPECT_TRUE(got >= 1 && got <= 5) << far << ": " << got;
+        EXPECT_TRUE(near >= 1 && near <= 5) << far << ": " << near;
+      }
+}
+
 TEST(BitmapTexture, RefusesWhatIsNoPicture) {
   EXPECT_EQ(support::error_of([] {
               Bitmap(texels(2, 2, {grey(0), grey(0), grey(0), grey(NAN)}));

@@ -1,5 +1,4 @@
 #include <render/io/image/formats.h>
-#include <render/io/image/srgb.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -7,14 +6,13 @@
 
 #include <turbojpeg.h>
 
-#include <array>
 #include <memory>
 #include <vector>
 
 namespace render::formats {
 
 // Treats warnings of the library, such as data that end early, as errors, because the image would be wrong.
-Image read_jpeg(const std::string& path) {
+Image read_jpeg(const std::string& path, const std::optional<Transfer>& transfer) {
   const std::string file = mc::read_file(path);
   mc::require(file.starts_with("\xff\xd8"), "not a JPEG file: it does not begin with ff d8");
   const auto* data = reinterpret_cast<const unsigned char*>(file.data());
@@ -35,8 +33,7 @@ Image read_jpeg(const std::string& path) {
   require_done(
       tjDecompress2(decoder.get(), data, file.size(), codes.data(), width, 0, height, TJPF_RGB, TJFLAG_LIMITSCANS));
 
-  std::array<Float, 256> linear{};
-  for (std::size_t i = 0; i < 256; ++i) linear[i] = Float(srgb_to_linear(double(i) / 255));
+  const auto linear = transfer.value_or(Transfer()).table();
   Image image(width, height);
   for (std::size_t i = 0; i < codes.size(); ++i) image.pixels[i / 3][static_cast<int>(i % 3)] = linear[codes[i]];
   return image;

@@ -183,7 +183,7 @@ void write_png(std::FILE* stream, const Image& image, const ToneMapping& tone) {
   mc::write_bytes(stream, Writer().encode(image.width, image.height, rows, texts));
 }
 
-Image read_png(const std::string& path) {
+Image read_png(const std::string& path, const std::optional<Transfer>& transfer) {
   const std::string file = mc::read_file(path);
   Reader reader(file);
   const std::size_t row_bytes = reader.row_bytes(), height = reader.height();
@@ -199,14 +199,11 @@ Image read_png(const std::string& path) {
   Image image(static_cast<int>(reader.width()), static_cast<int>(height));
   const std::size_t values = 3 * image.pixels.size();
   const bool wide = reader.is_16_bit();
-  const auto linear = [gamma = reader.gamma()](double encoded) {
-    return Float(gamma ? std::pow(encoded, *gamma) : srgb_to_linear(encoded));
-  };
-  std::array<Float, 256> narrow{};
-  for (std::size_t i = 0; i < 256; ++i) narrow[i] = linear(double(i) / 255);
+  const Transfer curve = transfer ? *transfer : Transfer{reader.gamma()};
+  const auto narrow = curve.table();
   for (std::size_t i = 0; i < values; ++i)
     image.pixels[i / 3][static_cast<int>(i % 3)] =
-        wide ? linear((256 * bytes[2 * i] + bytes[2 * i + 1]) / 65535.0) : narrow[bytes[i]];
+        wide ? Float(curve.to_linear((256 * bytes[2 * i] + bytes[2 * i + 1]) / 65535.0)) : narrow[bytes[i]];
   image.metadata = reader.texts();
   return image;
 }

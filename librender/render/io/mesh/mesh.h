@@ -47,8 +47,8 @@ void require_valid_mesh(const MeshFile& file);
 MeshFile read_obj(const std::string& path);
 
 /// Reads a Stanford PLY file, ASCII or binary of either byte order, and splits polygons into triangles. Reads the
-/// element `vertex` (x, y, z; optionally nx, ny, nz and u, v or s, t) and the element `face` (vertex_indices or
-/// vertex_index). Ignores all other content.
+/// element `vertex` (x, y, z; optionally nx, ny, nz and u, v or s, t) and the elements `face` and `tristrips`
+/// (vertex_indices or vertex_index; -1 ends a strip). Ignores all other content.
 ///   throws : Error with file and place for a missing or broken file, counts too large for the size of the file, an
 ///            index out of range, or a vertex that is not finite.
 MeshFile read_ply(const std::string& path);

@@ -265,10 +265,43 @@ void read_faces(const Element& element, Numbers& numbers, std::size_t vertices, 
   }
 }
 
+// Reads strips: every three consecutive vertices are a triangle, every other one of the opposite orientation. -1 ends a
+// strip. Triangles that name a vertex twice join strips and are not seen.
+void read_strips(const Element& element, Numbers& numbers, std::size_t vertices, Faces& faces) {
+  const auto list = element.column({"vertex_indices", "vertex_index"}, true);
+  mc::require(list.has_value(), "tristrips need a list vertex_indices");
+  Rows rows(element, numbers, list);
+  for (std::size_t i = 0; i < element.rows; ++i) {
+    rows.next();
+    constexpr std::size_t bytes = 2 * 3 * sizeof(std::uint32_t) + sizeof(std::size_t); // of a triangle
+    mc::require_memory(double(bytes) * double(rows.list.size()), fmt::format("{} corners of strips", rows.list.size()));
+    std::array<std::uint32_t, 2> before{};
+    std::size_t length = 0; // of the strip so far
+    for (const double corner : rows.list) {
+      if (corner == -1) {
+        length = 0;
+        continue;
+      }
+      mc::require(corner >= 0 && corner < double(vertices) && corner == std::floor(corner),
+                  "strip {} names vertex {}, but there are only 0 to {}; -1 ends a strip", i, corner,
+                  double(vertices) - 1);
+      const auto c = static_cast<std::uint32_t>(corner);
+      const auto [a, b] = before;
+      if (length >= 2 && a != b && b != c && a != c) {
+        const bool is_turned = length % 2 == 1;
+        faces.corners.insert(faces.corners.end(), {is_turned ? b : a, is_turned ? a : b, c});
+        faces.ends.push_back(faces.corners.size());
+      }
+      before = {b, c};
+      ++length;
+    }
+  }
+}
+
 void require_faces(const Header& header) {
   std::vector<std::string> elements;
   for (const Element& e : header.elements) {
-    if (e.name == "face" && e.rows > 0) return;
+    if ((e.name == "face" || e.name == "tristrips") && e.rows > 0) return;
     if (e.rows > 0) elements.push_back(fmt::format("{} of '{}'", e.rows, e.name));
   }
   throw mc::Error(fmt::format("it has no faces but {}, and faces alone are seen; convert the file to faces",
@@ -288,6 +321,7 @@ MeshFile mesh_of(std::string_view bytes) {
   for (const Element& element : header.elements) {
     if (element.name == "vertex") read_vertices(element, numbers, mesh);
     else if (element.name == "face") read_faces(element, numbers, vertex->rows, faces);
+    else if (element.name == "tristrips") read_strips(element, numbers, vertex->rows, faces);
     else {
       Rows rows(element, numbers, {});
       for (std::size_t i = 0; i < element.rows; ++i) rows.next();

@@ -8,6 +8,15 @@
 
 namespace render::mitsuba {
 
+namespace {
+
+// "line 14", or "base.xml:14" for an element of another file than the reader of the message is in.
+std::string place_of(const XmlElement& element, const XmlElement& reader) {
+  return element.file == reader.file ? fmt::format("line {}", element.line) : element.where();
+}
+
+} // namespace
+
 bool is_mitsuba_2_scene(const XmlElement& scene) {
   const std::string version = scene.attribute_or("version", "0.6.0");
   for (const std::string_view known : {"0.4", "0.5", "0.6", "2", "3"}) {
@@ -38,31 +47,40 @@ void Context::collect_ids(const XmlElement& element) {
       const std::string& id = child.attribute("id");
       const auto [first, added] = ids_.try_emplace(id, &child);
       if (!added)
-        child.fail(
-            fmt::format("a second element with the id '{}', after line {}; ids must differ", id, first->second->line));
+        child.fail(fmt::format("a second element with the id '{}', after {}; ids must differ", id,
+                               place_of(*first->second, child)));
     }
+    if (child.tag == "ref") referenced_.insert(child.attribute_or("id", ""));
     collect_ids(child);
   }
 }
 
-const XmlElement& Context::resolve(const XmlElement& element, std::string_view tag) const {
+const XmlElement& Context::resolve(const XmlElement& element, const std::vector<std::string>& tags) const {
   if (element.tag != "ref") return element;
   const std::string& id = element.attribute("id");
+  const auto is_allowed = [&](const XmlElement& e) { return std::find(tags.begin(), tags.end(), e.tag) != tags.end(); };
   const auto found = ids_.find(id);
-  if (found != ids_.end() && found->second->tag == tag) return *found->second;
+  if (found != ids_.end() && is_allowed(*found->second)) return *found->second;
   if (found != ids_.end())
-    element.fail(fmt::format("'{}' is the <{}> of line {}; a <ref> stands here for a <{}> alone", id,
-                             found->second->tag, found->second->line, tag));
+    element.fail(fmt::format("'{}' is the <{}> of {}; a <ref> stands here for a <{}> alone", id, found->second->tag,
+                             place_of(*found->second, element), fmt::join(tags, "> or <")));
   std::vector<std::string_view> known;
   for (const auto& [name, target] : ids_)
-    if (target->tag == tag) known.push_back(name);
-  element.fail(fmt::format("no <{}> has the id '{}'{}", tag, id, mc::did_you_mean(id, known)));
+    if (is_allowed(*target)) known.push_back(name);
+  element.fail(fmt::format("no <{}> has the id '{}'{}", fmt::join(tags, "> or <"), id, mc::did_you_mean(id, known)));
+}
+
+std::string_view Context::tag_of(const XmlElement& element) const {
+  if (element.tag != "ref") return element.tag;
+  const auto found = ids_.find(element.attribute("id"));
+  return found == ids_.end() ? std::string_view("ref") : std::string_view(found->second->tag);
 }
 
 Material Context::read_bsdf(const XmlElement& element) {
-  const XmlElement& target = resolve(element, "bsdf");
+  const XmlElement& target = resolve(element, {"bsdf"});
   if (!being_read_.insert(&target).second)
-    element.fail(fmt::format("it leads back to the <bsdf> of line {}, in which it stands", target.line));
+    element.fail(fmt::format("'{}' leads back to the <bsdf> of {}, in which it stands", element.attribute_or("id", ""),
+                             place_of(target, element)));
   constexpr std::size_t deepest = 256;
   if (being_read_.size() > deepest)
     element.fail(fmt::format("references to <bsdf>s stand in one another more than {} deep; flatten them", deepest));
@@ -72,7 +90,7 @@ Material Context::read_bsdf(const XmlElement& element) {
 }
 
 BsdfId Context::bsdf(const XmlElement& element) {
-  const XmlElement& target = resolve(element, "bsdf");
+  const XmlElement& target = resolve(element, {"bsdf"});
   const auto known = bsdfs_.find(&target);
   if (known != bsdfs_.end()) return known->second;
   const BsdfId id = builder.add(read_bsdf(element));
@@ -81,16 +99,16 @@ BsdfId Context::bsdf(const XmlElement& element) {
 }
 
 Texture Context::texture(const XmlElement& element) {
-  const XmlElement& target = resolve(element, "texture");
+  const XmlElement& target = resolve(element, {"texture"});
   const auto known = textures_.find(&target);
   if (known != textures_.end()) return known->second;
   return textures_.emplace(&target, read_plugin(texture_plugins(), target, *this)).first->second;
 }
 
-std::shared_ptr<const Texels> Context::picture(const std::string& path) {
-  std::shared_ptr<const Texels>& picture = pictures_[path];
+std::shared_ptr<const Texels> Context::picture(const std::string& path, const std::optional<Transfer>& transfer) {
+  std::shared_ptr<const Texels>& picture = pictures_[{path, transfer ? transfer->gamma.value_or(-1) : 0}];
   if (!picture) {
-    Image image = read_image(path);
+    Image image = read_image(path, transfer);
     picture = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels), path);
   }
   return picture;

@@ -1,6 +1,7 @@
 #pragma once
 /// State shared by the plugins of one scene file: folders, dialect and named elements.
 
+#include <render/io/image/transfer.h>
 #include <render/io/mitsuba/file_resolver.h>
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/io/spectrum.h>
@@ -14,6 +15,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace render::mitsuba {
@@ -46,8 +48,13 @@ class Context {
   FileResolver folders;
 
   /// The element itself, or, for a <ref>, the element with the referenced id.
-  ///   throws : Error for an unknown id, with the most similar id, or if the element is no <tag>, with its actual tag.
-  const XmlElement& resolve(const XmlElement& element, std::string_view tag) const;
+  ///   tags   : tags that the element with this id may have.
+  ///   throws : Error for an unknown id, with the most similar id, or for another tag, with the place of the element.
+  const XmlElement& resolve(const XmlElement& element, const std::vector<std::string>& tags) const;
+  /// Tag of the element itself, or, for a <ref>, of the element with the referenced id; "ref" for an unknown id.
+  std::string_view tag_of(const XmlElement& element) const;
+  /// Whether a <ref> of the scene names the id of this element.
+  bool is_referenced(const XmlElement& element) const { return referenced_.contains(element.attribute_or("id", "")); }
 
   /// Reads the BSDF that a <bsdf> describes or a <ref> references.
   ///   throws : Error for an invalid BSDF and for circular references.
@@ -61,7 +68,7 @@ class Context {
   Texture texture(const XmlElement& element);
   /// The image in a file, read on first use.
   ///   throws : the errors of read_image.
-  std::shared_ptr<const Texels> picture(const std::string& path);
+  std::shared_ptr<const Texels> picture(const std::string& path, const std::optional<Transfer>& transfer = {});
 
   /// Path of a file that the scene refers to; recorded in files().
   std::string file(const std::string& name);
@@ -83,11 +90,13 @@ class Context {
   bool is_mitsuba_2_;
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
+  std::set<std::string> referenced_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
   std::array<std::optional<BsdfId>, 2> default_bsdfs_; ///< for other shapes, and for lamps
   std::set<const XmlElement*> being_read_;
   std::map<const XmlElement*, Texture> textures_;
-  std::map<std::string, std::shared_ptr<const Texels>> pictures_;
+  /// By path and meaning of the codes: 0 as the file says, -1 sRGB, or the exponent.
+  std::map<std::pair<std::string, double>, std::shared_ptr<const Texels>> pictures_;
   std::set<std::string> files_;
   std::vector<std::string> warnings_;
 };

@@ -51,10 +51,16 @@ class Reader {
     else if (e.tag == "emitter") emitter(e);
     else if (e.tag == "bsdf") named_bsdf(e);
     else if (e.tag == "texture") named_texture(e);
+    else if (e.tag == "medium") named(e, medium_plugins());
+    else if (e.tag == "film") named(e, film_plugins());
+    else if (e.tag == "rfilter") named(e, filter_plugins());
+    else if (e.tag == "sampler") named(e, sampler_plugins());
     else if (e.tag == "shape") shape(e);
     else if (e.tag == "path") context_.folders.add(e);
     else if (e.tag != "default")
-      e.fail("unknown element; use default, include, path, integrator, sensor, bsdf, texture, shape or emitter");
+      e.fail(
+          "unknown element; use default, include, path, integrator, sensor, bsdf, texture, shape or emitter; or, for "
+          "a <ref>, film, rfilter, sampler or medium");
   }
 
   template <class T> std::optional<T>& only_one(const XmlElement& e, std::optional<T>& place) {
@@ -63,7 +69,7 @@ class Reader {
   }
 
   void emitter(const XmlElement& e) {
-    if (e.attribute("type") == "area") e.fail("an area shines only as part of a <shape>; put it into one");
+    if (e.attribute("type") == "area") return named_area(e);
     Light light = read_plugin(emitter_plugins(), e, context_);
     if (light.is_infinite() && std::exchange(has_background_, true)) e.fail("a second background; only one is allowed");
     context_.builder.add(std::move(light));
@@ -73,6 +79,18 @@ class Reader {
   static std::string name_of(const XmlElement& e) {
     const std::string id = e.attribute_or("id", "");
     return fmt::format("{}{} ({})", e.attribute("type"), id.empty() ? "" : " '" + mc::printable(id) + "'", e.where());
+  }
+
+  void named_area(const XmlElement& e) {
+    if (!e.has("id")) e.fail("an area shines only as part of a <shape>; put it into one, or give it an id for a <ref>");
+    named(e, surface_emitter_plugins());
+    if (!context_.is_referenced(e)) context_.warn(e, "no <ref> in a <shape> names its id, so it does not shine");
+  }
+
+  // Reads a plugin that a <ref> may reference, so that its errors are reported in any case.
+  template <class T> void named(const XmlElement& e, const Plugins<T>& rows) {
+    e.attribute("id");
+    read_plugin(rows, e, context_);
   }
 
   void named_bsdf(const XmlElement& e) {
@@ -86,8 +104,6 @@ class Reader {
   }
 
   void shape(const XmlElement& e) {
-    // Reports invalid references before errors of the plugin.
-    for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
     ShapeDescription s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
     surface_names_.push_back(name_of(e));

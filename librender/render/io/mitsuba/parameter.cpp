@@ -46,18 +46,18 @@ bool is_in_snake_case(std::string_view word, std::string_view name) {
 
 } // namespace
 
-bool Declaration::matches(const XmlElement& child) const {
-  if (nested()) return std::find(tags.begin(), tags.end(), child.tag) != tags.end();
+bool Declaration::matches(const XmlElement& child, const Context& context) const {
+  if (nested()) return std::find(tags.begin(), tags.end(), context.tag_of(child)) != tags.end();
   const std::string word = child.attribute_or("name", "");
   return word == name || is_in_snake_case(word, name);
 }
 
-const XmlElement* Declaration::find(const XmlElement& plugin) const {
+const XmlElement* Declaration::find(const XmlElement& plugin, const Context& context) const {
   const XmlElement* found = nullptr;
   for (const XmlElement& child : plugin.children) {
-    if (!matches(child)) continue;
+    if (!matches(child, context)) continue;
     if (found) child.fail(fmt::format("a second {}, after line {}; only one is allowed here", name, found->line));
-    if (std::find(tags.begin(), tags.end(), child.tag) == tags.end())
+    if (!nested() && std::find(tags.begin(), tags.end(), child.tag) == tags.end())
       child.fail(fmt::format("'{}' must be a <{}>", name, fmt::join(tags, "> or <")));
     child.mark_used();
     child.attribute_or("id", "");
@@ -149,6 +149,15 @@ Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std
 
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning) {
   return {{name, "file", "", {"string"}, meaning}, picture_of, {}, {}};
+}
+
+Parameter<PictureSource> encoded_picture(const std::string& name, const std::string& meaning) {
+  const auto source = [](const XmlElement& e, Context& context) -> PictureSource {
+    return [path = context.file(e.attribute("value")), &context](const std::optional<Transfer>& transfer) {
+      return context.picture(path, transfer);
+    };
+  };
+  return {{name, "file", "", {"string"}, meaning}, source, {}, {}};
 }
 
 Parameter<Transform> transform(const std::string& name, const std::string& meaning) {

@@ -30,11 +30,11 @@ struct Declaration {
 
   /// Whether the parameter is a nested plugin.
   bool nested() const { return name.starts_with('<'); }
-  /// Whether a child of a plugin is this parameter.
-  bool matches(const XmlElement& child) const;
+  /// Whether a child of a plugin is this parameter. A nested plugin may also be a <ref> to one.
+  bool matches(const XmlElement& child, const Context& context) const;
   /// The child of a plugin that is this parameter, or null.
   ///   throws : Error for a second such child, and for a child with another tag.
-  const XmlElement* find(const XmlElement& plugin) const;
+  const XmlElement* find(const XmlElement& plugin, const Context& context) const;
   /// Checks the dialect for a given parameter. Warns if the dialect ignores it.
   ///   throws : Error if the dialect does not have the parameter.
   void require_dialect(const XmlElement& given, Context& context) const;
@@ -84,7 +84,7 @@ template <class T> struct Parameter {
 
   /// The value of the parameter for a plugin.
   T read(const XmlElement& plugin, Context& context) const {
-    if (const XmlElement* given = declared.find(plugin)) {
+    if (const XmlElement* given = declared.find(plugin, context)) {
       declared.require_dialect(*given, context);
       return in_scene(parse(*given, context), context);
     }
@@ -119,6 +119,10 @@ using Reflectance = std::variant<Spectrum, Texture>;
 /// A reflectance in [0, 1], constant or from a texture.
 Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
                                               const Spectrum& fallback);
+/// Reads an image whose codes have the given meaning.
+using PictureSource = std::function<std::shared_ptr<const Texels>(const std::optional<Transfer>& transfer)>;
+/// An image file, relative to the scene file, with codes that other parameters may give a meaning.
+Parameter<PictureSource> encoded_picture(const std::string& name, const std::string& meaning);
 /// An image file, relative to the scene file.
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning);
 /// A transform.

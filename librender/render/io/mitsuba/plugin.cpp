@@ -7,10 +7,25 @@
 
 namespace render::mitsuba::detail {
 
-void require_known_children(const XmlElement& e, const PluginText& row) {
+namespace {
+
+// Throws Error for a <ref> that is no named parameter and references none of the plugins that may stand there.
+void require_reference(const XmlElement& ref, const PluginText& row, const Context& context) {
+  std::vector<std::string> tags;
+  for (const Declaration& d : row.parameters) {
+    if (d.nested()) tags.insert(tags.end(), d.tags.begin(), d.tags.end());
+    else if (d.matches(ref, context)) return;
+  }
+  if (!tags.empty()) context.resolve(ref, tags);
+}
+
+} // namespace
+
+void require_known_children(const XmlElement& e, const PluginText& row, const Context& context) {
   for (const XmlElement& child : e.children) {
+    if (child.tag == "ref") require_reference(child, row, context);
     const auto known = std::find_if(row.parameters.begin(), row.parameters.end(),
-                                    [&](const Declaration& d) { return d.matches(child); });
+                                    [&](const Declaration& d) { return d.matches(child, context); });
     const std::string name = child.attribute_or("name", "");
     if (known == row.parameters.end()) {
       std::vector<std::string> names;
@@ -21,9 +36,9 @@ void require_known_children(const XmlElement& e, const PluginText& row) {
                                            : fmt::format("its parameters are {}", fmt::join(names, ", "))));
     }
     if (!known->has_effect) {
-      known->find(e);
+      known->find(e, context);
       child.attribute_or("value", "");
-    } else if (known->only && boolean_of(*known->find(e)) != *known->only) {
+    } else if (known->only && boolean_of(*known->find(e, context)) != *known->only) {
       child.fail(fmt::format("{} = {} is not supported ({}); remove it", name, !*known->only, known->meaning));
     }
   }

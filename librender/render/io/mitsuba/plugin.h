@@ -43,8 +43,8 @@ template <class T, class Make, class... V> struct Reading {
   }
 };
 
-/// Throws Error unless every child is a parameter of the row.
-void require_known_children(const XmlElement& e, const PluginText& row);
+/// Throws Error unless every child is a parameter of the row, or a <ref> to one.
+void require_known_children(const XmlElement& e, const PluginText& row, const Context& context);
 /// Throws Error for an unknown type, with the most similar name.
 [[noreturn]] void fail_unknown_type(const XmlElement& e, const std::vector<std::string_view>& known);
 
@@ -68,7 +68,7 @@ template <class T> T read_plugin(const Plugins<T>& rows, const XmlElement& e, Co
   std::vector<std::string_view> known;
   for (const Plugin<T>& row : rows) {
     if (row.name == type) {
-      detail::require_known_children(e, row);
+      detail::require_known_children(e, row, context);
       return row.read(e, context);
     }
     known.push_back(row.name);
@@ -76,10 +76,12 @@ template <class T> T read_plugin(const Plugins<T>& rows, const XmlElement& e, Co
   detail::fail_unknown_type(e, known);
 }
 
-/// A nested plugin as a parameter of another plugin: <film> in <sensor>.
+/// A nested plugin, or a <ref> to one, as a parameter of another plugin: <film> in <sensor>.
 template <class T> Parameter<T> nested(std::string tag, std::string meaning, const Plugins<T>& (*rows)()) {
   return {{"<" + tag + ">", tag, "", {tag}, std::move(meaning)},
-          [rows](const XmlElement& e, Context& context) { return read_plugin(rows(), e, context); },
+          [rows, tag](const XmlElement& e, Context& context) {
+            return read_plugin(rows(), context.resolve(e, {tag}), context);
+          },
           {},
           {}};
 }

@@ -258,7 +258,8 @@ TEST_F(ImageIo, RefusesWithOneLine) {
   EXPECT_THAT(support::error_of([&] { render::write_image(path("a.jpg"), image); }),
               testing::HasSubstr("unknown image format '.jpg'; use .exr, .pfm or .png"));
   EXPECT_THAT(support::error_of([&] { render::read_image(path("a.gif")); }),
-              testing::HasSubstr("unknown image format '.gif'; use .exr, .pfm, .hdr, .png, .jpg or .jpeg"));
+              testing::HasSubstr(
+                  "unknown image format '.gif'; use .exr, .pfm, .hdr, .png, .jpg, .jpeg, .bmp, .tga, .ppm or .pgm"));
   EXPECT_THAT(support::error_of([&] { render::write_image(path("none/a.exr"), image); }),
               testing::HasSubstr("does not exist; create it first"));
   EXPECT_THAT(support::error_of([&] { render::read_image(path("none.exr")); }), testing::HasSubstr("no such file"));

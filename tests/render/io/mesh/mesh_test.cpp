@@ -160,6 +160,29 @@ TEST_F(Mesh, PlyConcavePolygons) {
   }
 }
 
+// Two strips in one list, a pair of twice named vertices that joins strips, and a second list.
+TEST_F(Mesh, PlyTriangleStrips) {
+  const auto strips = [&](const std::string& lists, int count) {
+    return write("s.ply", fmt::format("ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                                      "property float z\nelement tristrips {}\nproperty list int int vertex_indices\n"
+                                      "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n{}\n",
+                                      count, lists));
+  };
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+  EXPECT_EQ(read_ply(strips("6 0 1 2 3 4 5", 1)).triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
+  EXPECT_DOUBLE_EQ(to_shape(read_ply(strips("6 0 1 2 3 4 5", 1)), {}).area(), 2) << "of one orientation";
+  EXPECT_EQ(read_ply(strips("7 0 1 2 -1 2 3 4\n3 5 4 3", 2)).triangles, (Triangles{{0, 1, 2}, {2, 3, 4}, {5, 4, 3}}));
+  EXPECT_EQ(read_ply(strips("8 0 1 2 2 3 3 4 5", 1)).triangles, (Triangles{{0, 1, 2}, {4, 3, 5}})) << "the sixth turns";
+  const auto said = [&](const std::string& lists, int count) {
+    return support::error_of([&] { to_shape(read_ply(strips(lists, count)), {}); });
+  };
+  EXPECT_THAT(said("3 0 1 6", 1),
+              HasSubstr("s.ply: strip 0 names vertex 6, but there are only 0 to 5; -1 ends a strip"));
+  EXPECT_THAT(said("3 0 1 -2", 1), HasSubstr("strip 0 names vertex -2"));
+  EXPECT_THAT(said("2 0 1", 1), HasSubstr("no triangle"));
+  EXPECT_THAT(said("3 0 1", 1), HasSubstr("s.ply: tristrips 0: the file ends early"));
+}
+
 TEST_F(Mesh, PlyTruncatedAtAnyByte) {
   for (const PlyCase& c : ply_cases) expect_refusals_when_truncated("t.ply", pyramid(c), read_ply);
 }
@@ -193,8 +216,8 @@ TEST_F(Mesh, PlyRefusesWithFileAndPlace) {
   EXPECT_THAT(refusal(text, "ascii", "ebcdic"), HasSubstr("line 2: unknown format 'ebcdic'"));
   EXPECT_THAT(refusal(text, "vertex_indices", "edges"), HasSubstr("faces need a list vertex_indices"));
   EXPECT_THAT(refusal(text, "ply", "plx"), HasSubstr("not a PLY file"));
-  EXPECT_THAT(refusal(text, "face 2", "tristrips 2"),
-              HasSubstr("bad.ply: it has no faces but 4 of 'vertex', 2 of 'tristrips', and faces alone are seen"));
+  EXPECT_THAT(refusal(text, "face 2", "edge 2"),
+              HasSubstr("bad.ply: it has no faces but 4 of 'vertex', 2 of 'edge', and faces alone are seen"));
   EXPECT_THAT(refusal(text, "face 2", "face 0"), HasSubstr("it has no faces but 4 of 'vertex', and"));
 }
 

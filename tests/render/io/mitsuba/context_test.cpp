@@ -62,23 +62,55 @@ TEST_F(SceneContext, VersionsAreThoseOfMitsuba) {
         HasSubstr(fmt::format("v.xml:2: <scene>: version \"{}\" is not known; say 0.6.0", odd)));
 }
 
+TEST_F(SceneContext, ReferencesStandForPluginsOfEveryKind) {
+  const std::string
+      lamp = R"(<emitter type="area" id="lamp"><rgb name="radiance" value="3, 2, 1"/></emitter>)",
+      fog = R"(<medium type="homogeneous" id="fog"><rgb name="sigmaA" value="1"/></medium>)",
+      film = R"(<film type="hdrfilm" id="film"><integer name="width" value="7"/><ref id="filter"/></film>)",
+      filter = R"(<rfilter type="box" id="filter"/>)",
+      sampler = R"(<sampler type="independent" id="many"><integer name="sampleCount" value="9"/></sampler>)",
+      use = R"(<sensor type="perspective"><float name="fov" value="40"/><ref id="many"/><ref id="film"/></sensor>
+      <shape type="sphere"><ref id="lamp"/><ref name="interior" id="fog"/></shape>)";
+  const auto check = [&](const std::string& body) {
+    const auto file = render::read_mitsuba(scene(body));
+    ASSERT_EQ(file.scene.lights().size(), 1u) << body;
+    EXPECT_EQ(file.light_names.size(), 1u);
+    const auto& light = std::get<render::AreaLight>(file.scene.lights()[0]);
+    EXPECT_TRUE(light.radiance().isApprox(render::Spectrum(3, 2, 1))) << body;
+    EXPECT_EQ(file.defaults.width, 7) << body;
+    EXPECT_EQ(file.defaults.spp, 9) << body;
+    EXPECT_TRUE(std::holds_alternative<render::BoxFilter>(file.scene.filter())) << body;
+    EXPECT_TRUE(file.scene.surfaces()[0].interior) << body;
+    EXPECT_THAT(file.warnings, testing::IsEmpty()) << body;
+  };
+  check(lamp + fog + filter + film + sampler + use);
+  check(use + sampler + film + filter + fog + lamp);
+  EXPECT_THAT(render::read_mitsuba(scene(std::string(sensor) + "<shape type=\"cube\"/>" + lamp)).warnings,
+              testing::ElementsAre(HasSubstr("s.xml:2: <emitter>: no <ref> in a <shape> names its id")));
+}
+
 TEST_F(SceneContext, BadReferences) {
   const std::string start = std::string(sensor) + "\n";
   EXPECT_THAT(
       refusal(start + "<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"),
-      HasSubstr("s.xml:3: <ref>: no <bsdf> has the id 'whte'; did you mean 'white'?"));
-  EXPECT_THAT(refusal(start + "<shape type=\"sphere\" id=\"s\"><ref id=\"s\"/></shape>"),
-              HasSubstr("s.xml:3: <ref>: 's' is the <shape> of line 3; a <ref> stands here for a <bsdf> alone"));
-  EXPECT_THAT(refusal(start +
-                      "<shape type=\"sphere\"><emitter type=\"area\" id=\"lamp\"><rgb name=\"radiance\" "
-                      "value=\"1\"/></emitter></shape>\n" +
-                      "<shape type=\"sphere\"><bsdf type=\"diffuse\"/><ref id=\"lamp\"/></shape>"),
-              HasSubstr("s.xml:4: <ref>: 'lamp' is the <emitter> of line 3; a <ref> stands here for a <bsdf> alone"));
+      HasSubstr("s.xml:3: <ref>: no <bsdf> or <emitter> or <medium> has the id 'whte'; did you mean 'white'?"));
+  EXPECT_THAT(
+      refusal(start + "<shape type=\"sphere\" id=\"s\"><ref id=\"s\"/></shape>"),
+      HasSubstr("s.xml:3: <ref>: 's' is the <shape> of line 3; a <ref> stands here for a <bsdf> or <emitter> or "
+                "<medium> alone"));
+  EXPECT_THAT(
+      refusal(start + R"(<emitter type="constant" id="lamp"/> <bsdf type="twosided" id="b"><ref id="lamp"/></bsdf>)"),
+      HasSubstr("s.xml:3: <ref>: 'lamp' is the <emitter> of line 3; a <ref> stands here for a <bsdf> alone"));
+  EXPECT_THAT(refusal(start + R"(<emitter type="constant" id="lamp"/> <shape type="cube"><ref id="lamp"/></shape>)"),
+              HasSubstr("s.xml:3: <emitter>: unknown type 'constant'; use one of area"));
+  EXPECT_THAT(refusal(start + R"(<shape type="cube"><ref id="lamp"/>
+      <emitter type="area" id="lamp"><rgb name="radiance" value="1"/></emitter></shape>)"),
+              HasSubstr("s.xml:4: <emitter>: a second <emitter>, after line 3; only one is allowed here"));
   EXPECT_THAT(refusal(start + "<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),
               HasSubstr("s.xml:4: <bsdf>: a second element with the id 'a', after line 3; ids must differ"));
   EXPECT_THAT(refusal(start + "<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf>\n<bsdf type=\"twosided\" "
                               "id=\"b\"><ref id=\"a\"/></bsdf>"),
-              HasSubstr("s.xml:4: <ref>: it leads back to the <bsdf> of line 3"));
+              HasSubstr("s.xml:4: <ref>: 'a' leads back to the <bsdf> of line 3"));
   std::string chain;
   for (int i = 0; i < 10000; ++i)
     chain += fmt::format("<bsdf type=\"twosided\" id=\"b{}\"><ref id=\"b{}\"/></bsdf>", i, i + 1);

@@ -71,8 +71,10 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
               testing::HasSubstr("did you mean 'diffuse'?"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),
               testing::HasSubstr("s.xml:4: <bsdf>: a second element with the id 'a'"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<emitter type=\"area\"/>"),
-              testing::HasSubstr("s.xml:3: <emitter>: an area shines only as part of a <shape>; put it into one"));
+  EXPECT_THAT(
+      refusal(std::string(sensor) + "\n<emitter type=\"area\"/>"),
+      testing::HasSubstr("s.xml:3: <emitter>: an area shines only as part of a <shape>; put it into one, or give it "
+                         "an id for a <ref>"));
   EXPECT_THAT(refusal(std::string(sensor) + "<bsdf type=\"diffuse\" id=\"a\"/>\n<alias id=\"a\" as=\"b\"/>"),
               testing::HasSubstr("s.xml:3: <alias>: unknown element; use default"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<volume/>"), testing::HasSubstr("s.xml:3: <volume>: unknown element"));
@@ -88,7 +90,7 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
       testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("gone.obj': no such file")));
   EXPECT_THAT(refusal(std::string(sensor) +
                       "\n<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"),
-              testing::HasSubstr("no <bsdf> has the id 'whte'; did you mean 'white'?"));
+              testing::HasSubstr("no <bsdf> or <emitter> or <medium> has the id 'whte'; did you mean 'white'?"));
   EXPECT_THAT(refusal("<integrator type=\"volpath\"/>" + std::string(sensor)),
               testing::HasSubstr("type 'volpath': scattering media are not supported"));
   EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>"),

@@ -1,4 +1,6 @@
+#include <render/bsdf/rough_conductor.h>
 #include <render/io/image/image_io.h>
+#include <render/io/metals.h>
 #include <render/io/mitsuba/plugins.h>
 
 #include "render/io/mitsuba/scene_text.h"
@@ -190,6 +192,127 @@ TEST_F(PluginsTest, WhatIsNotDoneIsRefused) {
                 testing::HasSubstr("s.xml:3: <boolean>: " + std::string(name) + " = true is not supported"));
     EXPECT_NO_THROW(render::read_mitsuba(scene(start + "false\"/></integrator><shape type=\"cube\"/>")));
   }
+}
+
+// A mirror's reflectance at normal incidence, as the weight of its only direction.
+TEST_F(PluginsTest, ConductorsAreMetals) {
+  const auto reflected = [&](const std::string& type, const std::string& parameters) -> render::Spectrum {
+    const auto file =
+        render::read_mitsuba(scene(std::string(sensor) + "<shape type=\"cube\"><bsdf type=\"" + type +
+                                   "\"><string name=\"extEta\" value=\"vacuum\"/>" + parameters + "</bsdf></shape>"));
+    return file.scene.bsdf(file.scene.surfaces()[0]).sample({0, 0, 1}, 0, {0, 0})->f;
+  };
+  const std::string smooth = "<float name=\"alpha\" value=\"0\"/><string name=\"distribution\" value=\"ggx\"/>";
+  for (const auto name : render::metal_names()) {
+    const auto [eta, k] = render::metal_constants(name);
+    const std::string material = fmt::format("<string name=\"material\" value=\"{}\"/>", name);
+    EXPECT_TRUE(reflected("conductor", material).isApprox(render::fresnel_conductor(1, eta, k))) << name;
+    EXPECT_TRUE(reflected("roughconductor", material + smooth).isApprox(render::fresnel_conductor(1, eta, k))) << name;
+  }
+  const auto [eta, k] = render::metal_constants("Cu");
+  EXPECT_TRUE(reflected("conductor", "").isApprox(render::fresnel_conductor(1, eta, k))) << "Mitsuba's default";
+  const std::string none = "<string name=\"material\" value=\"none\"/>",
+                    rgb = R"(<rgb name="eta" value="0.2, 1, 1.3"/><rgb name="k" value="3, 2, 1"/>)";
+  EXPECT_TRUE(reflected("conductor", none).isApproxToConstant(1));
+  EXPECT_TRUE(reflected("roughconductor", none + smooth).isApproxToConstant(1));
+  const render::Spectrum expected = render::fresnel_conductor(1, {0.2f, 1, 1.3f}, {3, 2, 1});
+  EXPECT_TRUE(reflected("conductor", rgb).isApprox(expected));
+  EXPECT_TRUE(reflected("roughconductor", rgb + smooth).isApprox(expected));
+  EXPECT_TRUE(reflected("conductor", "<spectrum name=\"eta\" value=\"2\"/><float name=\"k\" value=\"3\"/>")
+                  .isApproxToConstant(render::Float(10.0 / 18)));
+
+  const auto said = [&](const std::string& type, const std::string& parameters) {
+    return refusal(std::string(sensor) + "\n<bsdf id=\"b\" type=\"" + type + "\">" + parameters + "</bsdf>");
+  };
+  for (const char* type : {"conductor", "roughconductor"}) {
+    EXPECT_THAT(said(type, none + rgb), testing::HasSubstr("s.xml:3: <bsdf>: material and eta contradict each other"));
+    EXPECT_THAT(said(type, "<float name=\"eta\" value=\"1\"/>"),
+                testing::HasSubstr("s.xml:3: <bsdf>: eta and k belong together; give both, or a material"));
+    EXPECT_THAT(said(type, "<string name=\"material\" value=\"Agg\"/>"),
+                testing::HasSubstr("s.xml:3: <string>: material 'Agg' is not known; did you mean 'Ag'?"));
+    EXPECT_THAT(said(type, "<string name=\"material\" value=\"TiO2\"/>"),
+                testing::HasSubstr("s.xml:3: <string>: material 'TiO2' is not in the table of metals; give its eta"));
+  }
+}
+
+TEST_F(PluginsTest, AnisotropicFacetsAreRefused) {
+  const auto said = [&](const std::string& type, const std::string& u, const std::string& v, const std::string& more) {
+    const auto along = [](const char* name, const std::string& value) {
+      return value.empty() ? "" : fmt::format("<float name=\"{}\" value=\"{}\"/>", name, value);
+    };
+    return refusal(std::string(sensor) + "<shape type=\"cube\"/>\n<bsdf id=\"b\" type=\"" + type + "\">" +
+                   along("alpha_u", u) + along("alphaV", v) + more + "</bsdf>");
+  };
+  for (const char* type : {"roughconductor", "roughdielectric"}) {
+    EXPECT_EQ(said(type, "0.2", "0.2", ""), "");
+    EXPECT_THAT(said(type, "0.2", "0.3", ""),
+                testing::HasSubstr("s.xml:3: <bsdf>: anisotropic facets are not supported: alphaU 0.2 and alphaV 0.3 "
+                                   "must be equal; give alpha instead"));
+    EXPECT_THAT(said(type, "0.2", "", ""), testing::HasSubstr("alphaU 0.2 and alphaV (missing) must be equal"));
+    EXPECT_THAT(said(type, "0.2", "0.2", "<float name=\"alpha\" value=\"0.2\"/>"),
+                testing::HasSubstr("give alpha, or alphaU and alphaV, not both"));
+  }
+}
+
+TEST_F(PluginsTest, PlasticMayBeNonlinear) {
+  const auto value = [&](const std::string& type, const std::string& more) {
+    const auto file = render::read_mitsuba(scene(std::string(sensor) + "<shape type=\"sphere\"><bsdf type=\"" + type +
+                                                 "\"><rgb name=\"diffuseReflectance\" value=\"0.1, 0.5, 1\"/>" + more +
+                                                 "</bsdf></shape>"));
+    return file.scene.bsdf(file.scene.surfaces()[0])
+        .eval(render::Vec3(0.6f, 0, 0.8f), render::Vec3(0.7f, 0, 0.5f).normalized());
+  };
+  for (const char* type : {"plastic", "roughplastic"}) {
+    const std::string alpha = std::string(type) == "plastic" ? "" : R"(<float name="alpha" value="0.001"/>)";
+    const render::Spectrum linear = value(type, alpha + R"(<boolean name="nonlinear" value="false"/>)"),
+                           nonlinear = value(type, alpha + R"(<boolean name="nonlinear" value="true"/>)");
+    EXPECT_LT(nonlinear[0], 0.5f * linear[0]) << type;
+    EXPECT_LT(nonlinear[1], 0.7f * linear[1]) << type;
+    EXPECT_NEAR(nonlinear[2], linear[2], 1e-4) << type << ": white stays white";
+    EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf id=\"b\" type=\"" + type +
+                        R"("><boolean name="nonlinear" value="true"/><string name="base" value="lajolla"/></bsdf>)"),
+                testing::HasSubstr("s.xml:3: <bsdf>: nonlinear needs the base layered"));
+  }
+}
+
+// A row of the codes 0, 128 and 255.
+TEST_F(PluginsTest, BitmapsAreWrappedFilteredAndDecodedAsTheySay) {
+  write("row.pgm", std::string("P5 3 1 255 \0\x80\xff", 14));
+  write("row.pfm", "Pf 1 1 -1 " + std::string("\0\0\x80\x3f", 4));
+  const auto read = [&](const std::string& parameters, const std::string& file) {
+    const auto root = render::read_xml(write("t.xml", "<texture type=\"bitmap\">\n<string name=\"filename\" value=\"" +
+                                                          file + "\"/>" + parameters + "</texture>"));
+    Context context(root, render::Dialect::mitsuba, render::Vec3d::Zero());
+    return read_plugin(texture_plugins(), root, context);
+  };
+  const auto at = [&](double texel, const std::string& parameters) {
+    return double(read(parameters, "row.pgm").eval({(texel + 0.5) / 3, 0.5})[0]);
+  };
+  const std::string nearest = R"(<string name="filter_type" value="nearest"/>)",
+                    clamp = R"(<string name="wrapMode" value="clamp"/>)",
+                    mirror = R"(<string name="wrap_mode" value="mirror"/>)",
+                    raw = R"(<boolean name="raw" value="true"/>)";
+  EXPECT_NEAR(at(1, ""), 0.2158605, 1e-6) << "sRGB";
+  EXPECT_NEAR(at(1, R"(<float name="gamma" value="-1"/>)"), 0.2158605, 1e-6);
+  EXPECT_NEAR(at(1, raw), 128 / 255.0, 1e-6);
+  EXPECT_NEAR(at(1, R"(<float name="gamma" value="2"/>)"), 128.0 * 128 / 65025, 1e-6);
+  EXPECT_NEAR(at(3, ""), 0, 1e-6) << "repeated";
+  EXPECT_NEAR(at(3, clamp), 1, 1e-6);
+  EXPECT_NEAR(at(4, mirror + raw), 128 / 255.0, 1e-5);
+  EXPECT_NEAR(at(1.4, nearest + raw), 128 / 255.0, 1e-6);
+  EXPECT_NEAR(at(1.4, raw), (0.6 * 128 + 0.4 * 255) / 255, 1e-5);
+  const auto said = [&](const std::string& parameters, const std::string& file) {
+    return support::error_of([&] { read(parameters, file); });
+  };
+  EXPECT_THAT(said(R"(<float name="gamma" value="0"/>)", "row.pgm"),
+              testing::HasSubstr("t.xml:1: <texture>: gamma 0 must be > 0, or -1 for the sRGB curve"));
+  EXPECT_THAT(said(R"(<float name="gamma" value="2"/>)" + raw, "row.pgm"),
+              testing::HasSubstr("raw means a gamma of 1, not 2"));
+  EXPECT_EQ(said(raw, "row.pfm"), "");
+  EXPECT_THAT(said(R"(<float name="gamma" value="2.2"/>)", "row.pfm"),
+              testing::HasSubstr("row.pfm: the values of this format are linear; leave out gamma"));
+  EXPECT_THAT(said(R"(<string name="wrapMode" value="zero"/>)", "row.pgm"),
+              testing::HasSubstr("t.xml:2: <string>: 'zero' is not known; use one of repeat, clamp, mirror"));
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include <render/io/metals.h>
 #include <render/io/mitsuba/plugins.h>
 
 #include <mc/core/text.h>
@@ -13,7 +14,29 @@ Material make_diffuse(const Reflectance& reflectance) {
   return Bsdf(Lambert(std::get<Spectrum>(reflectance)));
 }
 
-Bsdf make_conductor(std::size_t, const Spectrum& reflectance) { return FuzzyMetal(reflectance, 0); }
+/// Optical constants of a conductor, as the scene gives them.
+struct ConductorSettings {
+  std::optional<std::string> material;
+  std::optional<Spectrum> eta, k;
+};
+
+// Optical constants over the index of the outside. Nothing for the material none, a perfect mirror.
+std::optional<OpticalConstants> constants_of(const ConductorSettings& given, double outside) {
+  const auto& [material, eta, k] = given;
+  mc::require(outside > 0, "index of refraction {} must be > 0", outside);
+  mc::require(eta.has_value() == k.has_value(), "eta and k belong together; give both, or a material");
+  mc::require(!eta || !material, "material and eta contradict each other; give the material, or eta and k");
+  if (material == "none") return {};
+  const OpticalConstants c = eta ? OpticalConstants{*eta, *k} : metal_constants(material.value_or("Cu"));
+  return OpticalConstants{c.eta / Float(outside), c.k / Float(outside)};
+}
+
+Bsdf make_conductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
+                    const std::optional<Spectrum>& k, double outside, const Spectrum& reflectance) {
+  const auto constants = constants_of({material, eta, k}, outside);
+  if (!constants) return FuzzyMetal(reflectance, 0);
+  return SmoothConductor(constants->eta, constants->k, reflectance);
+}
 
 Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return FuzzyMetal(albedo, Float(fuzz)); }
 
@@ -22,6 +45,15 @@ struct Slope {
   double alpha;
   bool is_given = false;
 };
+
+// The slope from alpha, or from equal alphaU and alphaV.
+Slope isotropic(const Slope& slope, const std::optional<double>& u, const std::optional<double>& v) {
+  if (!u && !v) return slope;
+  mc::require(u == v, "anisotropic facets are not supported: alphaU {} and alphaV {} must be equal; give alpha instead",
+              u ? fmt::format("{}", *u) : "(missing)", v ? fmt::format("{}", *v) : "(missing)");
+  mc::require(!slope.is_given, "give alpha, or alphaU and alphaV, not both");
+  return {*u, true};
+}
 
 // The roughness of lajolla is the square root of alpha. Like lajolla, replaces roughness in (0, .01) by .01.
 double alpha_of(const Slope& slope, const std::optional<double>& roughness) {
@@ -54,23 +86,27 @@ template <class Paint> Material painted(Paint paint, const Reflectance& diffuse,
 }
 
 template <class Base>
-Material plastic_over(Float eta, double alpha, const Reflectance& diffuse, const Reflectance& specular) {
+Material plastic_over(Float eta, double alpha, const Reflectance& diffuse, const Reflectance& specular,
+                      InternalReflections internal) {
   const Spectrum base = constant_of(diffuse), coat = constant_of(specular);
-  if (alpha == 0) return painted(SmoothPlastic<Base>(eta, base, coat), diffuse, specular);
-  return painted(RoughPlastic<Base>(eta, Float(alpha), base, coat), diffuse, specular);
+  if (alpha == 0) return painted(SmoothPlastic<Base>(eta, base, coat, internal), diffuse, specular);
+  return painted(RoughPlastic<Base>(eta, Float(alpha), base, coat, internal), diffuse, specular);
 }
 
 Material make_plastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                      const Reflectance& diffuse, const Reflectance& specular, std::size_t base) {
+                      const Reflectance& diffuse, const Reflectance& specular, bool nonlinear, std::size_t base) {
   const Float eta = relative_index(inside, outside);
   const double alpha = alpha_of(slope, roughness);
-  return base == 1 ? plastic_over<LajollaBase>(eta, alpha, diffuse, specular)
-                   : plastic_over<LayeredBase>(eta, alpha, diffuse, specular);
+  mc::require(!nonlinear || base != 1, "nonlinear needs the base layered; that of lajolla ignores the coat");
+  const auto internal = nonlinear ? InternalReflections::nonlinear : InternalReflections::linear;
+  return base == 1 ? plastic_over<LajollaBase>(eta, alpha, diffuse, specular, internal)
+                   : plastic_over<LayeredBase>(eta, alpha, diffuse, specular, internal);
 }
 
 Material make_roughplastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                           std::size_t, const Reflectance& diffuse, const Reflectance& specular, std::size_t base) {
-  return make_plastic(inside, outside, slope, roughness, diffuse, specular, base);
+                           std::size_t, const Reflectance& diffuse, const Reflectance& specular, bool nonlinear,
+                           std::size_t base) {
+  return make_plastic(inside, outside, slope, roughness, diffuse, specular, nonlinear, base);
 }
 
 Bsdf make_dielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
@@ -82,20 +118,24 @@ Bsdf make_dielectric(double inside, double outside, const Slope& slope, const st
 }
 
 Bsdf make_roughdielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                          std::size_t, const Spectrum& reflectance, const Spectrum& transmittance) {
-  return make_dielectric(inside, outside, slope, roughness, reflectance, transmittance);
+                          const std::optional<double>& alpha_u, const std::optional<double>& alpha_v, std::size_t,
+                          const Spectrum& reflectance, const Spectrum& transmittance) {
+  return make_dielectric(inside, outside, isotropic(slope, alpha_u, alpha_v), roughness, reflectance, transmittance);
 }
 
 Material make_twosided(const Material& inner) { return inner; }
 
-Bsdf make_roughconductor(const Spectrum& eta, const Spectrum& k, double outside, const Slope& slope,
+Bsdf make_roughconductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
+                         const std::optional<Spectrum>& k, double outside, const Slope& slope,
+                         const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
                          std::size_t distribution, const Spectrum& reflectance) {
-  mc::require(outside > 0, "index of refraction {} must be > 0", outside);
-  const Spectrum inner = eta / Float(outside), inner_k = k / Float(outside);
-  const auto alpha = Float(slope.alpha);
-  if (alpha == 0) return SmoothConductor(inner, inner_k, reflectance);
-  if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(alpha), reflectance);
-  return RoughConductor(inner, inner_k, TrowbridgeReitzFacets(alpha), reflectance);
+  // F is 1 at every angle for eta = 0.
+  const OpticalConstants metal =
+      constants_of({material, eta, k}, outside).value_or(OpticalConstants{Spectrum::Zero(), Spectrum::Ones()});
+  const auto alpha = Float(isotropic(slope, alpha_u, alpha_v).alpha);
+  if (alpha == 0) return SmoothConductor(metal.eta, metal.k, reflectance);
+  if (distribution == 1) return RoughConductor(metal.eta, metal.k, BlinnPhongFacets(alpha), reflectance);
+  return RoughConductor(metal.eta, metal.k, TrowbridgeReitzFacets(alpha), reflectance);
 }
 
 Material make_mask(const Reflectance& opacity, Material inner) {
@@ -112,11 +152,13 @@ Material make_mask(const Reflectance& opacity, Material inner) {
 }
 
 Parameter<Material> inner_bsdf(std::string meaning) {
-  return {{"<bsdf>", "bsdf", "", {"bsdf", "ref"}, std::move(meaning)},
+  return {{"<bsdf>", "bsdf", "", {"bsdf"}, std::move(meaning)},
           [](const XmlElement& e, Context& context) { return context.read_bsdf(e); },
           {},
           {}};
 }
+
+Slope given_slope(const XmlElement& e, Context&) { return {number_of(e), true}; }
 
 Parameter<Slope> slope() {
   return {{"alpha",
@@ -124,9 +166,7 @@ Parameter<Slope> slope() {
            "",
            {"float", "integer"},
            "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]"},
-          [](const XmlElement& e, Context&) {
-            return Slope{number_of(e), true};
-          },
+          given_slope,
           {},
           {}};
 }
@@ -136,9 +176,33 @@ Parameter<Slope> alpha() { return slope().with_default({0.1}, "0.1").with_lajoll
 Parameter<Slope> alpha_of_smooth(const std::string& rough) {
   return slope().with_default({0}, "0").lajolla_only(rough);
 }
+Parameter<std::optional<double>> slope_along(const std::string& name, const std::string& axis) {
+  return optional(
+      number(name, "", "alpha along " + axis + "; anisotropic facets are not supported, so only equal ones"));
+}
 Parameter<std::optional<double>> roughness() {
   return optional(number("roughness", "", "the root of alpha, in [0, 1], instead of it"))
       .lajolla_only("alpha, its square");
+}
+
+std::string metal_of(const XmlElement& e, Context&) {
+  const std::string& name = e.attribute("value");
+  if (name != "none") mc::with_context(fmt::format("{}: <{}>", e.where(), e.tag), [&] { metal_constants(name); });
+  return name;
+}
+
+Parameter<std::optional<std::string>> metal() {
+  const std::string meaning = fmt::format(
+      "none: all is reflected; or the metal, one of {}, with measured eta and k converted to RGB as spectra",
+      fmt::join(metal_names(), ", "));
+  const Parameter<std::string> p{{"material", "none or a metal", "", {"string"}, meaning}, metal_of, {}, {}};
+  return optional(p).with_default(std::nullopt, "Cu, or eta and k");
+}
+Parameter<std::optional<Spectrum>> eta_of_metal() {
+  return optional(color("eta", "", "index of refraction, >= 0, instead of material"));
+}
+Parameter<std::optional<Spectrum>> k_of_metal() {
+  return optional(color("k", "", "extinction coefficient, >= 0; not 0 where eta is"));
 }
 
 Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
@@ -155,6 +219,10 @@ Parameter<std::size_t> base() {
              "near the horizon is more than there is",
              0)
       .with_lajolla_default(1, "lajolla");
+}
+
+Parameter<bool> nonlinear() {
+  return boolean("nonlinear", "whether light between coat and base takes the colour of the base at every reflection");
 }
 
 Parameter<Reflectance> color_of_base() {
@@ -210,10 +278,9 @@ const Plugins<Material>& bsdf_plugins() {
   static const Plugins<Material> rows = {
       plugin<Material>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
                        reflectance_or_texture("reflectance", "what is reflected, in [0, 1]", half)),
-      plugin<Material>(
-          "conductor", "a perfect mirror", make_conductor,
-          choice("material", {"none"}, "give it as none: all is reflected; metals by name are not supported"),
-          reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>("conductor", "polished metal, or a perfect mirror", make_conductor, metal(), eta_of_metal(),
+                       k_of_metal(), refractive_index("extEta", "outside", 1.000277),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
                        make_fuzzymetal,
                        reflectance("albedo", "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
@@ -224,23 +291,23 @@ const Plugins<Material>& bsdf_plugins() {
                        reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
       plugin<Material>("plastic", "polished paint: a smooth clear coat over a diffuse base", make_plastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
-                       alpha_of_smooth("roughplastic"), roughness(), color_of_base(), color_of_coat(), base())
-          .accepting({only(false, "nonlinear", "the base keeps its colour")}),
+                       alpha_of_smooth("roughplastic"), roughness(), color_of_base(), color_of_coat(), nonlinear(),
+                       base()),
       plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base", make_roughplastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
-                       alpha(), roughness(), distribution({"ggx"}), color_of_base(), color_of_coat(), base())
-          .accepting({only(false, "nonlinear", "the base keeps its colour")}),
+                       alpha(), roughness(), distribution({"ggx"}), color_of_base(), color_of_coat(), nonlinear(),
+                       base()),
       plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
                        refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
-                       alpha(), roughness(), distribution({"ggx"}),
+                       alpha(), roughness(), slope_along("alphaU", "u"), slope_along("alphaV", "v"),
+                       distribution({"ggx"}),
                        reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
                        reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
-      plugin<Material>("roughconductor",
-                       "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
-                       make_roughconductor, color("eta", "", "index of refraction, >= 0"),
-                       color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
-                       refractive_index("extEta", "outside", 1.000277), alpha(), distribution({"ggx", "phong"}),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>(
+          "roughconductor", "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
+          make_roughconductor, metal(), eta_of_metal(), k_of_metal(), refractive_index("extEta", "outside", 1.000277),
+          alpha(), slope_along("alphaU", "u"), slope_along("alphaV", "v"), distribution({"ggx", "phong"}),
+          reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
                        inner_bsdf("what covers both sides")),
       plugin<Material>(

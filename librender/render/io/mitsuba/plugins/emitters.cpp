@@ -60,7 +60,7 @@ const Plugins<Light>& emitter_plugins() {
       plugin<Light>("envmap", "a latitude-longitude picture of everything far away, +y its top row", make_envmap,
                     transform("toWorld", "a rotation; where it moves things is of no effect"),
                     number("scale", "", 1, "factor of the picture's values, > 0"),
-                    picture("filename", "the picture: .exr, .hdr, .pfm, .png or .jpg"))
+                    picture("filename", "the picture: .exr, .hdr, .pfm, .png, .jpg, .bmp, .tga, .ppm or .pgm"))
           .accepting({sampling_weight()}),
       plugin<Light>("gradient", "a sky that is linear in the height of the direction (ours)", make_gradient,
                     color("bottom", radiance_unit, "what arrives from -y, >= 0", Spectrum::Ones()),

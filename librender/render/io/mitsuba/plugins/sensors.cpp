@@ -75,14 +75,16 @@ FilmSettings make_film(int width, int height, const Filter& filter, double, doub
 }
 
 // Restricts a parameter that would change the image of Mitsuba to its default. lajolla ignores the parameter.
-template <class T> Parameter<T> only_default(const Parameter<T>& p, const std::string& remedy) {
+//   is_refused : whether another value is an error; else it is a warning.
+template <class T> Parameter<T> only_default(const Parameter<T>& p, const std::string& remedy, bool is_refused = true) {
   Parameter<T> only = p;
   only.declared.meaning += "; only this is supported: " + remedy;
-  only.parse = [p, remedy](const XmlElement& e, Context& context) {
+  only.parse = [p, remedy, is_refused](const XmlElement& e, Context& context) {
     if (p.parse(e, context) == *p.fallback) return *p.fallback;
     const std::string what = fmt::format("{} = {} is not supported", p.declared.name, e.attribute("value"));
-    if (context.dialect() == Dialect::mitsuba) e.fail(fmt::format("{}; {}", what, remedy));
-    context.warn(e, fmt::format("{}, nor does lajolla look at it; {}", what, remedy));
+    const bool is_lajolla = context.dialect() == Dialect::lajolla;
+    if (!is_lajolla && is_refused) e.fail(fmt::format("{}; {}", what, remedy));
+    context.warn(e, fmt::format("{}{}; {}", what, is_lajolla ? ", nor does lajolla look at it" : "", remedy));
     return *p.fallback;
   };
   return only;
@@ -113,7 +115,7 @@ Plugin<FilmSettings> film_plugin(std::string name) {
              nested("rfilter", "how samples make a pixel", filter_plugins)
                  .with_default(GaussianFilter(), "gaussian")
                  .with_lajolla_default(BoxFilter(), "box"),
-             only_default(number("gamma", "", -1, "of a PNG, by the sRGB curve"), "remove it, or say -1"),
+             only_default(number("gamma", "", -1, "of a PNG, by the sRGB curve"), "remove it, or say -1", false),
              only_default(number("exposure", "stops", 0, "of a PNG"), "remove it and say carlo render --exposure"),
              pixel_format())
       .accepting(ignored);

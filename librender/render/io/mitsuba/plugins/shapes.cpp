@@ -33,14 +33,23 @@ PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transfor
   });
 }
 
+// The mesh with v measured from the other edge of a texture.
+MeshFile with_v_flipped(MeshFile mesh) {
+  for (auto& uv : mesh.uvs) uv[1] = 1 - uv[1];
+  return mesh;
+}
+
+// read_obj() measures v from the top, because OBJ files measure it from the bottom.
 PlacedShape make_obj(const std::string& path, const Transform& to_world, bool face_normals,
-                     const std::optional<double>& max_angle) {
-  return placed(path, read_obj(path), to_world, {face_normals, max_angle});
+                     const std::optional<double>& max_angle, bool flip) {
+  MeshFile mesh = read_obj(path);
+  return placed(path, flip ? mesh : with_v_flipped(std::move(mesh)), to_world, {face_normals, max_angle});
 }
 
 PlacedShape make_ply(const std::string& path, const Transform& to_world, bool face_normals,
-                     const std::optional<double>& max_angle) {
-  return placed(path, read_ply(path), to_world, {face_normals, max_angle});
+                     const std::optional<double>& max_angle, bool flip) {
+  MeshFile mesh = read_ply(path);
+  return placed(path, flip ? with_v_flipped(std::move(mesh)) : mesh, to_world, {face_normals, max_angle});
 }
 
 PlacedShape make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
@@ -90,7 +99,7 @@ Shape make_sphere(const Transform& to_world, const Center& center, double radius
 
 Parameter<std::optional<BsdfId>> bsdf_of_shape() {
   const Parameter<std::optional<BsdfId>> p{
-      {"<bsdf>", "bsdf, or ref to one", "", {"bsdf", "ref"}, "what covers it"},
+      {"<bsdf>", "bsdf", "", {"bsdf"}, "what covers it"},
       [](const XmlElement& e, Context& context) { return std::optional(context.bsdf(e)); },
       {},
       {}};
@@ -107,7 +116,7 @@ Parameter<std::optional<HomogeneousMedium>> medium_of_shape() {
       [](const XmlElement& e, Context& context) {
         if (e.attribute_or("name", "interior") != "interior")
           e.fail("only a medium named 'interior' is supported; beyond a shape nothing absorbs");
-        return std::optional(read_plugin(medium_plugins(), e, context));
+        return std::optional(read_plugin(medium_plugins(), context.resolve(e, {"medium"}), context));
       },
       {},
       {}};
@@ -202,8 +211,10 @@ const Plugins<HomogeneousMedium>& medium_plugins() {
 
 const Plugins<ShapeDescription>& shape_plugins() {
   static const Plugins<ShapeDescription> rows = {
-      mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj),
-      mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
+      mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj,
+                  boolean("flipTexCoords", "whether the file measures v from the bottom of a texture", true)),
+      mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary, of faces or triangle strips", make_ply,
+                  boolean("flipTexCoords", "whether the file measures v from the bottom of a texture", false)),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
                   integer("shapeIndex", "which of the file's meshes, >= 0", 0)),
       shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world(),

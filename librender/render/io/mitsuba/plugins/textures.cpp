@@ -17,6 +17,8 @@ Moved moved_of(const XmlElement& e, Context&) {
   return {{m(0, 0), m(1, 1)}, t.translation.head<2>()};
 }
 
+constexpr std::size_t nearest = 3; // index in filterType
+
 struct Repeats {
   std::optional<double> u, v, both;
 };
@@ -28,8 +30,22 @@ UvMap make_uv_map(const Repeats& repeats, double uoffset, double voffset, const 
   return UvMap(scale.cwiseProduct(first.scale), scale.cwiseProduct(first.offset) + Vec2d(uoffset, voffset));
 }
 
-Texture make_bitmap(const UvMap& map, std::size_t, std::size_t, const std::shared_ptr<const Texels>& texels) {
-  return Bitmap(texels, map);
+// The meaning of the codes of a picture: by the file, unless raw or gamma is given.
+std::optional<Transfer> transfer_of(bool raw, const std::optional<double>& gamma) {
+  mc::require(!raw || !gamma || *gamma == 1, "raw means a gamma of 1, not {}; leave one of them out",
+              gamma.value_or(1));
+  mc::require(!gamma || *gamma > 0 || *gamma == -1, "gamma {} must be > 0, or -1 for the sRGB curve",
+              gamma.value_or(1));
+  if (raw) return Transfer{1.0};
+  if (!gamma) return {};
+  return *gamma == -1 ? Transfer() : Transfer{*gamma};
+}
+
+Texture make_bitmap(const UvMap& map, std::size_t wrap, std::size_t filter, bool raw,
+                    const std::optional<double>& gamma, const PictureSource& picture) {
+  constexpr Wrap wraps[] = {Wrap::repeat, Wrap::clamp, Wrap::mirror};
+  return Bitmap(picture(transfer_of(raw, gamma)), map, wraps[wrap],
+                filter == nearest ? TexelFilter::nearest : TexelFilter::bilinear);
 }
 
 Texture make_checkerboard(const UvMap& map, const Spectrum& color0, const Spectrum& color1) {
@@ -77,12 +93,14 @@ Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make,
 const Plugins<Texture>& texture_plugins() {
   static const Plugins<Texture> rows = {
       texture_plugin(
-          "bitmap",
-          "a picture, bilinear between its texels, repeated; 8 bits are decoded by the sRGB curve, or a PNG's gAMA",
-          make_bitmap, choice("wrapMode", {"repeat"}, "beyond its edges", 0),
-          choice("filterType", {"bilinear", "trilinear", "ewa"},
-                 "between its texels, which here is bilinear in any case", 0),
-          picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
+          "bitmap", "a picture, bilinear between its texels; 8 bits are decoded by the sRGB curve, or a PNG's gAMA",
+          make_bitmap, choice("wrapMode", {"repeat", "clamp", "mirror"}, "beyond its edges", 0),
+          choice("filterType", {"bilinear", "trilinear", "ewa", "nearest"},
+                 "between its texels; trilinear and ewa are bilinear here", 0),
+          boolean("raw", "whether the codes of the picture are linear, as gamma 1"),
+          optional(number("gamma", "", "exponent that decodes the codes, 1: linear; -1: the sRGB curve"))
+              .with_default(std::nullopt, "by the file"),
+          encoded_picture("filename", "the picture: .png, .jpg, .exr, .hdr, .pfm, .bmp, .tga, .ppm or .pgm")),
       texture_plugin("checkerboard", "two by two squares in a period", make_checkerboard,
                      reflectance("color0", "of the squares at (0, 0) and (1/2, 1/2)", Spectrum::Constant(Float(0.4))),
                      reflectance("color1", "of the other two", Spectrum::Constant(Float(0.2)))),

@@ -125,8 +125,11 @@ TEST_F(Lajolla, WhatItsFilmLeavesOutIsNamed) {
     };
     for (const Dialect dialect : {Dialect::mitsuba, Dialect::lajolla})
       EXPECT_THAT(render::read_mitsuba(scene(with(row.done)), dialect).warnings, testing::IsEmpty()) << row.name;
-    EXPECT_THAT(refusal(with(row.not_done)), AllOf(HasSubstr("s.xml:3: <" + std::string(row.tag) + ">: "),
-                                                   HasSubstr(row.not_done), HasSubstr(row.remedy)));
+    const auto place_and_remedy =
+        AllOf(HasSubstr("s.xml:3: <" + std::string(row.tag) + ">: "), HasSubstr(row.not_done), HasSubstr(row.remedy));
+    if (std::string_view(row.name) == "gamma")
+      EXPECT_THAT(render::read_mitsuba(scene(with(row.not_done))).warnings, testing::ElementsAre(place_and_remedy));
+    else EXPECT_THAT(refusal(with(row.not_done)), place_and_remedy);
     EXPECT_THAT(render::read_mitsuba(scene(with(row.not_done)), Dialect::lajolla).warnings,
                 testing::ElementsAre(AllOf(HasSubstr("s.xml:3: <" + std::string(row.tag) + ">: "), HasSubstr(row.name),
                                            HasSubstr(row.not_done), HasSubstr("nor does lajolla look at it"))));

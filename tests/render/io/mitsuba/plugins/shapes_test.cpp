@@ -104,4 +104,26 @@ TEST_F(ShapePlugins, MeshesKeepTheirEdgesFromMaxSmoothAngleOn) {
                              testing::HasSubstr("edge.obj: faceNormals and maxSmoothAngle contradict each other")));
 }
 
+// The corner of the file at v = 1/4 has the v of the parameter.
+TEST_F(ShapePlugins, TextureCoordinatesAreFlippedAsTheFileNeedsIt) {
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nf 1/1 2/1 3/1\n");
+  write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                 "property float u\nproperty float v\nelement face 1\nproperty list uchar int vertex_index\n"
+                 "end_header\n0 0 0 0 0.25\n1 0 0 0 0.25\n0 1 0 0 0.25\n3 0 1 2\n");
+  const std::string textured = R"(<bsdf type="diffuse"><texture type="checkerboard" name="reflectance"/></bsdf>)";
+  const auto v = [&](const std::string& type, const std::string& parameter) {
+    const auto file =
+        shape(type, "<string name=\"filename\" value=\"a." + type + "\"/>" + parameter + textured, "3.0.0");
+    return std::get<render::TriangleMesh>(*file.scene.surfaces()[0].shape).uv({}, render::SurfacePoint())[1];
+  };
+  const std::string flip = R"(<boolean name="flip_tex_coords" value="true"/>)",
+                    keep = R"(<boolean name="flipTexCoords" value="false"/>)";
+  EXPECT_NEAR(v("obj", ""), 0.75, 1e-6);
+  EXPECT_NEAR(v("obj", flip), 0.75, 1e-6);
+  EXPECT_NEAR(v("obj", keep), 0.25, 1e-6);
+  EXPECT_NEAR(v("ply", ""), 0.25, 1e-6);
+  EXPECT_NEAR(v("ply", keep), 0.25, 1e-6);
+  EXPECT_NEAR(v("ply", flip), 0.75, 1e-6);
+}
+
 } // namespace
