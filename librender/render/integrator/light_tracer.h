@@ -152,6 +152,7 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
     if (!hit) return;
     const Surface& surface = scene_->surface(*hit);
     const SurfacePoint point = surface.shape->surface_point(subpath.ray, *hit);
+    if (surface.absorbs(point, subpath.ray.d)) return;
     const bool from_afar = subpath.edges == 1 && !source;
     const double distance2 = (point.p - subpath.previous_point).template cast<double>().squaredNorm();
     if (subpath.media.current) [[unlikely]]

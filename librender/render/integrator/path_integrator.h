@@ -174,7 +174,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     if (state.media.current) [[unlikely]]
       state.beta *= state.media.current->transmittance((vertex.point.p - state.previous_point).norm());
     light_mis_.arrive(state.partial_mis, state.edges, state.previous_point, state.ray.d, vertex.point);
-    if (state.edges == max_depth_) return false;
+    if (state.edges == max_depth_ || vertex.surface->absorbs(vertex.point, state.ray.d)) return false;
     vertex.bsdf = &scene_.bsdf(*vertex.surface, *hit, vertex.point, vertex.bsdf_storage);
     return true;
   }

@@ -31,6 +31,7 @@ void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
                   properties.bsdf,
                   {},
                   properties.importance_target,
+                  materials_[bsdf].one_sided,
                   properties.interior};
   if (properties.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());

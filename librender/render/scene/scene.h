@@ -24,6 +24,7 @@ struct Material {
   Bsdf bsdf;                                   ///< The BSDF; if `texture` is given, a BSDF of the same kind.
   std::shared_ptr<const TexturedBsdf> texture; ///< Variation over the surface; null: none.
   std::shared_ptr<const Mask> mask;            ///< Mask of opacity; null: opaque.
+  bool one_sided = false;                      ///< Whether the side opposite to the normal absorbs all light.
 
   /// An opaque material without texture.
   Material(Bsdf b) : bsdf(std::move(b)) {}
@@ -41,8 +42,12 @@ struct Surface {
   BsdfId bsdf;
   std::optional<std::uint32_t> light; ///< Index of the area light of this shape; none: it does not emit.
   bool importance_target = false;     ///< Whether strategies with targets also aim at this shape.
+  bool one_sided = false;             ///< As in its material.
   /// Medium on the side opposite to the normals; the other side is empty.
   std::optional<HomogeneousMedium> interior = {};
+
+  /// Whether light that arrives at `point` in the direction d is absorbed, since d comes from the absorbing side.
+  bool absorbs(const SurfacePoint& point, const Vec3& d) const { return one_sided && point.ng.dot(d) > 0; }
 };
 
 /// Surfaces, lights, camera and filter of a scene, with acceleration structures. SceneBuilder makes scenes. Immutable,

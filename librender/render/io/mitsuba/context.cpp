@@ -93,7 +93,9 @@ BsdfId Context::bsdf(const XmlElement& element) {
   const XmlElement& target = resolve(element, {"bsdf"});
   const auto known = bsdfs_.find(&target);
   if (known != bsdfs_.end()) return known->second;
-  const BsdfId id = builder.add(read_bsdf(element));
+  Material material = read_bsdf(element);
+  if (dialect_ == Dialect::lajolla) material.one_sided = false;
+  const BsdfId id = builder.add(std::move(material));
   bsdfs_.emplace(&target, id);
   return id;
 }
@@ -127,7 +129,11 @@ void Context::warn(const XmlElement& element, const std::string& what) {
 
 BsdfId Context::default_bsdf(bool is_lamp) {
   std::optional<BsdfId>& bsdf = default_bsdfs_[is_lamp ? 1 : 0];
-  if (!bsdf) bsdf = builder.add(is_lamp ? Lambert(Spectrum::Zero()) : Lambert());
+  if (!bsdf) {
+    Material material(Bsdf(is_lamp ? Lambert(Spectrum::Zero()) : Lambert()));
+    material.one_sided = dialect_ == Dialect::mitsuba;
+    bsdf = builder.add(std::move(material));
+  }
   return *bsdf;
 }
 

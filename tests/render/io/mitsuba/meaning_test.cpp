@@ -14,14 +14,14 @@ using render::Spectrum;
 struct Meaning : support::SceneTest {
   /// Radiance of a pixel with a box filter and a tiny field of view, from `eye` towards `target`.
   Spectrum seen(const std::string& eye, const std::string& target, const std::string& body,
-                const std::string& sensor_parameters = "") const {
+                const std::string& sensor_parameters = "", render::Dialect dialect = render::Dialect::mitsuba) const {
     const std::string file =
         write("one.xml",
               fmt::format("<scene version=\"0.6.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"0.01\"/>{}"
                           "<transform name=\"toWorld\"><lookAt origin=\"{}\" target=\"{}\" up=\"0,1,0\"/></transform>"
                           "<film type=\"hdrfilm\"><rfilter type=\"box\"/></film></sensor>{}</scene>",
                           sensor_parameters, eye, target, body));
-    const render::SceneFile read = render::read_mitsuba(file);
+    const render::SceneFile read = render::read_mitsuba(file, dialect);
     render::RenderOptions options;
     options.width = options.height = 1;
     options.spp = 256;
@@ -119,6 +119,32 @@ TEST_F(Meaning, AMediumBeginsAtTheLens) {
     const Spectrum inside = seen("0,0,0", "0,0,3", box, near);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(inside[c], std::exp(-3 * (c == 0 ? 0.2 : c == 1 ? 0.5 : 1)), 1e-5) << near;
   }
+}
+
+// Opaque BSDFs reflect on the side of the normal, unless they are inside <twosided>. In lajolla they do on both.
+TEST_F(Meaning, OpaqueBsdfsAreOneSided) {
+  const std::string half = "<rgb name=\"specularReflectance\" value=\"0.5\"/>",
+                    metal = "<rgb name=\"eta\" value=\"0\"/><rgb name=\"k\" value=\"1\"/>" + half;
+  const auto plate = [&](const std::string& type, const std::string& parameters, bool twosided = false) {
+    const std::string bsdf = fmt::format("<bsdf type=\"{}\">{}</bsdf>", type, parameters);
+    return fmt::format("{}<shape type=\"rectangle\">{}</shape>", sky,
+                       twosided ? "<bsdf type=\"twosided\">" + bsdf + "</bsdf>" : bsdf);
+  };
+  for (const auto& [type, parameters] : std::vector<std::pair<std::string, std::string>>{
+           {"diffuse", ""},
+           {"conductor", "<string name=\"material\" value=\"none\"/>" + half},
+           {"roughconductor", metal},
+           {"plastic", ""},
+           {"roughplastic", ""}}) {
+    const double front = double(seen("0,0,4", "0,0,0", plate(type, parameters))[0]);
+    EXPECT_GT(front, 0.3) << type;
+    EXPECT_EQ(seen("0,0,-4", "0,0,0", plate(type, parameters))[0], 0) << type;
+    EXPECT_NEAR(seen("0,0,-4", "0,0,0", plate(type, parameters, true))[0], front, 0.02) << type;
+    const Spectrum lajolla = seen("0,0,-4", "0,0,0", plate(type, parameters), "", render::Dialect::lajolla);
+    EXPECT_GT(lajolla[0], 0.3) << type;
+  }
+  EXPECT_GT(seen("0,0,-4", "0,0,0", plate("fuzzymetal", ""))[0], 0.8);
+  EXPECT_EQ(seen("0,0,-4", "0,0,0", sky + "<shape type=\"rectangle\"/>")[0], 0);
 }
 
 // Without a given focus, a lens is focused at farClip, 1e4 by default: a distant edge is sharp.

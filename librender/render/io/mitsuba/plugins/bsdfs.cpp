@@ -9,9 +9,17 @@ namespace render::mitsuba {
 
 namespace {
 
+// Opaque BSDFs of Mitsuba reflect on one side, unless `twosided` contains them. Context::bsdf() makes them two-sided in
+// the dialect lajolla.
+Material one_sided(Material material) {
+  material.one_sided = true;
+  return material;
+}
+
 Material make_diffuse(const Reflectance& reflectance) {
-  if (const auto* texture = std::get_if<Texture>(&reflectance)) return TexturedBsdf(TexturedLambert(*texture));
-  return Bsdf(Lambert(std::get<Spectrum>(reflectance)));
+  const auto* texture = std::get_if<Texture>(&reflectance);
+  return one_sided(texture ? Material(TexturedBsdf(TexturedLambert(*texture)))
+                           : Material(Bsdf(Lambert(std::get<Spectrum>(reflectance)))));
 }
 
 /// Optical constants of a conductor, as the scene gives them.
@@ -31,11 +39,11 @@ std::optional<OpticalConstants> constants_of(const ConductorSettings& given, dou
   return OpticalConstants{c.eta / Float(outside), c.k / Float(outside)};
 }
 
-Bsdf make_conductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
-                    const std::optional<Spectrum>& k, double outside, const Spectrum& reflectance) {
+Material make_conductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
+                        const std::optional<Spectrum>& k, double outside, const Spectrum& reflectance) {
   const auto constants = constants_of({material, eta, k}, outside);
-  if (!constants) return FuzzyMetal(reflectance, 0);
-  return SmoothConductor(constants->eta, constants->k, reflectance);
+  if (!constants) return one_sided(Bsdf(FuzzyMetal(reflectance, 0)));
+  return one_sided(Bsdf(SmoothConductor(constants->eta, constants->k, reflectance)));
 }
 
 Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return FuzzyMetal(albedo, Float(fuzz)); }
@@ -81,8 +89,8 @@ std::optional<Texture> texture_of(const Reflectance& r) {
 
 template <class Paint> Material painted(Paint paint, const Reflectance& diffuse, const Reflectance& specular) {
   std::optional<Texture> base = texture_of(diffuse), coat = texture_of(specular);
-  if (!base && !coat) return Bsdf(std::move(paint));
-  return TexturedBsdf(TexturedPlastic<Paint>(std::move(paint), std::move(base), std::move(coat)));
+  if (!base && !coat) return one_sided(Bsdf(std::move(paint)));
+  return one_sided(TexturedBsdf(TexturedPlastic<Paint>(std::move(paint), std::move(base), std::move(coat))));
 }
 
 template <class Base>
@@ -123,19 +131,23 @@ Bsdf make_roughdielectric(double inside, double outside, const Slope& slope, con
   return make_dielectric(inside, outside, isotropic(slope, alpha_u, alpha_v), roughness, reflectance, transmittance);
 }
 
-Material make_twosided(const Material& inner) { return inner; }
+Material make_twosided(Material inner) {
+  inner.one_sided = false;
+  return inner;
+}
 
-Bsdf make_roughconductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
-                         const std::optional<Spectrum>& k, double outside, const Slope& slope,
-                         const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
-                         std::size_t distribution, const Spectrum& reflectance) {
+Material make_roughconductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
+                             const std::optional<Spectrum>& k, double outside, const Slope& slope,
+                             const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
+                             std::size_t distribution, const Spectrum& reflectance) {
   // F is 1 at every angle for eta = 0.
   const OpticalConstants metal =
       constants_of({material, eta, k}, outside).value_or(OpticalConstants{Spectrum::Zero(), Spectrum::Ones()});
   const auto alpha = Float(isotropic(slope, alpha_u, alpha_v).alpha);
-  if (alpha == 0) return SmoothConductor(metal.eta, metal.k, reflectance);
-  if (distribution == 1) return RoughConductor(metal.eta, metal.k, BlinnPhongFacets(alpha), reflectance);
-  return RoughConductor(metal.eta, metal.k, TrowbridgeReitzFacets(alpha), reflectance);
+  if (alpha == 0) return one_sided(Bsdf(SmoothConductor(metal.eta, metal.k, reflectance)));
+  if (distribution == 1)
+    return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, BlinnPhongFacets(alpha), reflectance)));
+  return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, TrowbridgeReitzFacets(alpha), reflectance)));
 }
 
 Material make_mask(const Reflectance& opacity, Material inner) {
@@ -276,7 +288,7 @@ Parameter<double> refractive_index(const std::string& name, const std::string& w
 const Plugins<Material>& bsdf_plugins() {
   static const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   static const Plugins<Material> rows = {
-      plugin<Material>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
+      plugin<Material>("diffuse", "perfectly diffuse reflection", make_diffuse,
                        reflectance_or_texture("reflectance", "what is reflected, in [0, 1]", half)),
       plugin<Material>("conductor", "polished metal, or a perfect mirror", make_conductor, metal(), eta_of_metal(),
                        k_of_metal(), refractive_index("extEta", "outside", 1.000277),

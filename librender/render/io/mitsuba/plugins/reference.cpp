@@ -24,6 +24,8 @@ Mitsuba 2 and 3 are accepted: `to_world`, `int_ior`.
   the first counts, and before both `carlo render -D spp=16`.
 - **Files** are named relative to the scene file, or to a folder that `<path value="textures"/>` names above;
   `<include filename="base.xml"/>` inserts the content of another scene file.
+- **Sides**: opaque BSDFs reflect on the side of the normal, and the other side is black, as in Mitsuba; inside
+  `<bsdf type="twosided">` they reflect on both. `fuzzymetal` (ours) always does, and with `--dialect lajolla` all do.
 - **References**: `<ref id="white"/>` stands for the bsdf, texture, emitter, medium, film, rfilter or sampler with this
   id, at any place of the file. `<ref name="reflectance" id="wood"/>` makes a texture a parameter.
 - "-" as default: the parameter must be given. Where lajolla's default differs, `--dialect lajolla` takes that one.
