@@ -129,7 +129,8 @@ double seen_of(const Lamp& lamp, double& error) {
   const std::string file = testing::TempDir() + "/lamp.xml";
   mc::write_file(file, fmt::format(R"(<scene version="0.6.0"><sensor type="perspective"><float name="fov" value="20"/>
 <transform name="toWorld"><lookAt origin="0,0,-.5" target="0,.2,-1" up="0,1,0"/></transform></sensor>
-<shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="{0}"/></bsdf></shape>{1}
+<shape type="sphere"><boolean name="flipNormals" value="true"/>
+<bsdf type="diffuse"><rgb name="reflectance" value="{0}"/></bsdf></shape>{1}
 <shape type="sphere"><float name="radius" value="{2}"/><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
 <emitter type="area"><rgb name="radiance" value="10000"/></emitter></shape></scene>)",
                                    lamp.albedo, lamp.around, lamp.radius));

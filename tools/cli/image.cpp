@@ -141,7 +141,8 @@ std::string loss_of(const Image& image, const ImageCommandOptions& o) {
 }
 
 void require_memory(const Image& image, const ImageCommandOptions& o) {
-  const double planes = is_exr(o.out) ? (image.variance.empty() ? 3 : 6) + double(image.layers.size()) : 3;
+  const double extra = (image.variance.empty() ? 0 : 3) + double(image.layers.size());
+  const double planes = is_exr(o.out) ? 3 + extra : 3;
   const double copies = o.layer.empty() ? planes : planes + 3;
   mc::require_memory(sizeof(float) * copies * double(image.pixels.size()),
                      fmt::format("image: {}x{} pixels", image.width, image.height), "a smaller --crop needs less");

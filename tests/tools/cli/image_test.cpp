@@ -205,7 +205,7 @@ TEST_F(ImageCommand, BadInput_IsOneLineAndWritesNothing) {
   for (const auto& [in, out, options, words] : std::vector<std::array<std::string, 4>>{
            {"none.exr", "b.png", "", "none.exr': no such file"},
            {"broken.exr", "b.png", "", "broken.exr: cannot read EXR"},
-           {"a.xml", "b.png", "", "unknown image format '.xml'; use .exr, .pfm, .hdr, .png, .jpg or .jpeg"},
+           {"a.xml", "b.png", "", "unknown image format '.xml'; use .exr, .pfm, .hdr, .png, .jpg, .jpeg, .bmp"},
            {"a.exr", "b.jpg", "", "unknown image format '.jpg'; use .exr, .pfm or .png"},
            {"a.exr", "none/b.png", "", "none"},
            {"a.exr", "a.exr", "--exposure 1", "OUT would write '" + path("a.exr") + "' over IN; name another file"},

@@ -12,7 +12,7 @@ TEST(GalleryFeatures, AreReadFromTheSceneFile) {
   const std::vector<carlo::Feature> features = carlo::features_of(carlo::gallery_scene("smallpt"));
   EXPECT_THAT(features, testing::ElementsAre("integrator path", "sensor perspective", "film", "rfilter subpixeltent",
                                              "sampler", "bsdf diffuse", "bsdf conductor", "bsdf dielectric",
-                                             "shape sphere", "emitter area", "strategy mis+lt"));
+                                             "bsdf twosided", "shape sphere", "emitter area", "strategy mis+lt"));
 }
 
 TEST(GalleryFeatures, AreEachUsedByAScene) {

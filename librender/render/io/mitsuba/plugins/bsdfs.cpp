@@ -320,7 +320,7 @@ const Plugins<Material>& bsdf_plugins() {
           make_roughconductor, metal(), eta_of_metal(), k_of_metal(), refractive_index("extEta", "outside", 1.000277),
           alpha(), slope_along("alphaU", "u"), slope_along("alphaV", "v"), distribution({"ggx", "phong"}),
           reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
-      plugin<Material>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
+      plugin<Material>("twosided", "the BSDF inside it, on both sides of the surface", make_twosided,
                        inner_bsdf("what covers both sides")),
       plugin<Material>(
           "mask", "the BSDF inside it, with holes", make_mask,
