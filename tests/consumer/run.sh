@@ -4,11 +4,11 @@
 # output of the examples with the README.
 # Usage: run.sh BUILD_DIR CMAKE COMPILER [one | other]
 #   one    Release only, for libraries built with a sanitizer.
-#   other  uses clang if COMPILER is g++, else g++; exits with 77 if it is not installed.
+#   other  Release only, by clang if COMPILER is g++, else by g++; exits with 77 if it is not installed.
 set -eu
 build=$1 cmake=$2 compiler=$3 what=${4:-all}
 configurations=(Debug Release)
-[ "$what" != one ] || configurations=(Release)
+[ "$what" = all ] || configurations=(Release)
 if [ "$what" = other ]; then
   if "$compiler" --version | grep -qi clang; then compiler=g++; else compiler=clang++-14; fi
   command -v "$compiler" >/dev/null || { echo "skipped: $compiler is not installed"; exit 77; }

@@ -13,7 +13,7 @@ using namespace support;
 // Sixty rooms with 16 images of each method. The ways to render alternate.
 TEST(LightTracingRender, MatchesMisImages) {
   Agreement agreement;
-  for (std::uint64_t i = 0; agreement.scenes < 60; ++i) {
+  for (std::uint64_t i = 0; agreement.scenes < 30; ++i) {
     const Scene scene = RandomScene(i).build();
     if (!LightTracer::create(scene, strategy_from("mis+lt"), 1)) continue;
     RenderOptions options = options_of(i, 64), much = options_of(i, 256);
@@ -28,14 +28,14 @@ TEST(LightTracingRender, MatchesMisImages) {
     agreement.add(i, one, picture_means(scene, options, 16, unit),
                   2.05); // Student's t with about 28 degrees of freedom
   }
-  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: more than 10 with probability 1/3000
+  EXPECT_LE(agreement.outliers, 6); // of 30 at 5 %: more than 6 with probability 1/1600
 }
 
-// Forty rooms with point and directional lights, against small spherical lights in their place, which camera paths can
+// Twenty rooms with point and directional lights, against small spherical lights in their place, which camera paths can
 // hit.
 TEST(LightTracingRender, DeltaLights_MatchSmallSphereLights) {
   Agreement agreement;
-  for (std::uint64_t i = 0; agreement.scenes < 40; ++i) {
+  for (std::uint64_t i = 0; agreement.scenes < 20; ++i) {
     const Scene deltas = RandomScene(i, RandomLights::deltas).build(),
                 spheres = RandomScene(i, RandomLights::spheres).build();
     if (!LightTracer::create(deltas, strategy_from("mis+lt"), 1)) continue;
@@ -46,7 +46,7 @@ TEST(LightTracingRender, DeltaLights_MatchSmallSphereLights) {
     agreement.add(i, picture_means(spheres, options, 12, unit), picture_means(deltas, options, 12, unit),
                   2.07); // about 22 degrees of freedom
   }
-  EXPECT_LE(agreement.outliers, 8); // of 40 at 5 %: more than 8 with probability 1/2000
+  EXPECT_LE(agreement.outliers, 5); // of 20 at 5 %: more than 5 with probability 1/3000
 }
 
 /// A room in which light paths pay.

@@ -48,7 +48,7 @@ template <Job J> AnyJob any_job(J& job, std::string name) {
     std::optional<Result> result = std::as_const(job).compute(unit);
     return result ? std::make_shared<Result>(std::move(*result)) : nullptr;
   };
-  any.absorb = [&job](std::size_t unit, AnyResult result) {
+  any.absorb = [&job](std::size_t unit, const AnyResult& result) {
     job.absorb(unit, std::move(*static_cast<Result*>(result.get())));
   };
   any.may_start = any.needs_results = [] { return true; };

@@ -64,10 +64,10 @@ TEST(CheckerErrorRates, LobesByCancellingFormulas_AreNotRejected) {
   }
 }
 
-// Each is missed with probability at most 0.01: more than 2 of 30 with probability 0.003.
+// Each is missed with probability at most 0.01: more than 2 of 20 with probability 0.001.
 TEST(CheckerErrorRates, FaultsOfStatedSize_AreFound) {
   int missed = 0;
-  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const mc::SubjectOptions options{.samples = 50'000, .seed = seed, .alpha = 0.01};
     const mc::Subject right = checker_bench::random_continuous(seed);
     const checker_bench::FaultySubject wrong = checker_bench::stated_fault(right, check_subject(right, options), seed);
@@ -82,7 +82,7 @@ TEST(CheckerErrorRates, FaultsOfStatedSize_AreFound) {
 TEST(CheckerErrorRates, RegressionSubjects_AreJudgedCorrectly) {
   for (const checker_bench::RegressionSubject& f : checker_bench::regression_subjects()) {
     const mc::Report r = check_subject(
-        f.subject, {.samples = f.right ? 300'000u : 1'000'000u, .seed = 3, .alpha = f.right ? 1e-4 : 0.01});
+        f.subject, {.samples = f.right ? 150'000u : 1'000'000u, .seed = 3, .alpha = f.right ? 1e-4 : 0.01});
     EXPECT_EQ(r.verdict(), f.right ? Verdict::pass : Verdict::fail) << r.to_string();
   }
 }

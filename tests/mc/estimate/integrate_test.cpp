@@ -208,7 +208,7 @@ TEST(Integrate, ConditionallyConvergent_ErrorIsUnknown) {
 TEST(Integrate, PeaksInManyDimensions_AreNotCalledInfinite) {
   const auto f = [](Unit u) { return two_peaks(u, 0.2); };
   for (const Method method : methods)
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
       const mc::ErrorBar bar = mc::integrate_unit(f, 30, with(method, 200'000, seed)).error_bar;
       EXPECT_TRUE(bar == mc::ErrorBar::undersampled || bar == mc::ErrorBar::too_few_points) << name(method) << seed;
     }

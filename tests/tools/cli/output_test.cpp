@@ -132,7 +132,7 @@ TEST_F(OutputTest, FullDisk_PlotIsAnErrorAndUserFilesStay) {
 
 TEST_F(OutputTest, CtrlC_WritesFinishedResults) {
   const ProcessResult run =
-      support::interrupt_carlo("validate --all --threads 1 --samples 400000 --json '" + path("v.json") + "'");
+      support::interrupt_carlo("validate --all --threads 1 --samples 400000 --json '" + path("v.json") + "'", " pass ");
   EXPECT_EQ(run.exit_code, 130) << run.output;
   EXPECT_THAT(run.output, HasSubstr("interrupted: "));
   EXPECT_THAT(mc::read_file(path("v.json")),
