@@ -131,13 +131,13 @@ TEST_F(MemoryOfCommands, PeakOfMeasurements_IsAsStated) {
     domain += (i > 0 ? ",x" : "x") + std::to_string(i) + "=0:1";
   }
   expect_peak_as_stated("integrate \"exp(-(" + sum + ")^2/30)\" -d " + domain +
-                        " --method vegas --rel-error 0 --abs-error 1e-99 --max-calls 1e7");
+                        " --method vegas --rel-error 0 --abs-error 1e-99 --max-calls 2e6");
 }
 
 // The record of points contains one value for each wanted output, and none for a bin.
 TEST_F(MemoryOfCommands, BinsOfHistogram_TakeNoRecord) {
   EXPECT_LE(peak("integrate \"exp(-x)+y\" -d x=0:1,y=0:1 --histogram x=1000 --rel-error 0 --abs-error 1e-99 "
-                 "--max-calls 1e6"),
+                 "--max-calls 1e5"),
             0x1p29);
 }
 

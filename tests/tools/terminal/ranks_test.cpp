@@ -82,7 +82,7 @@ TEST_F(CarloRanks, Checkpoint_GoesOnWithAnotherNumberOfRanks) {
 
 // mpirun ends all ranks where one is killed; rank 0 saves what is done first, and names the rank.
 TEST_F(CarloRanks, DeadRank_IsNamedAndTheCheckpointGoesOn) {
-  const std::string line = "render cbox --size 64x64 --spp 1024 -o " + path("a.exr") + " --threads 1",
+  const std::string line = "render cbox --size 64x64 --spp 400 -o " + path("a.exr") + " --threads 1",
                     file = path("a.ckpt");
   const support::ProcessResult r = support::run(
       fmt::format("(mpirun --oversubscribe --allow-run-as-root --mca odls_base_sigkill_timeout 5 -n 3 '" CARLO_PATH
@@ -95,7 +95,7 @@ TEST_F(CarloRanks, DeadRank_IsNamedAndTheCheckpointGoesOn) {
   EXPECT_THAT(r.output, testing::ContainsRegex("carlo: rank 2 \\(process [0-9]+ on [^)]+\\) died"));
   ASSERT_TRUE(std::filesystem::exists(file)) << r.output;
   ASSERT_EQ(run_carlo(line + " --resume " + file).exit_code, 0);
-  ASSERT_EQ(run_carlo("render cbox --size 64x64 --spp 1024 -o " + path("b.exr")).exit_code, 0);
+  ASSERT_EQ(run_carlo("render cbox --size 64x64 --spp 400 -o " + path("b.exr")).exit_code, 0);
   EXPECT_EQ(content_of(path("a.exr")), content_of(path("b.exr")));
 }
 
