@@ -28,20 +28,28 @@ struct RadianceContribution {
 struct NoLightPaths {
   /// No state along a path.
   struct PartialWeight {};
+  /// Directions are sampled as the strategy says.
   template <class SceneType> DirectionMixture directions(const SceneType& scene, const Strategy& strategy) const {
     return {scene, strategy};
   }
+  /// See LightPathMis.
   PartialWeight start(const Vec3&) const { return {}; }
+  /// See LightPathMis.
   void arrive(PartialWeight&, int, const Vec3&, const Vec3&, const SurfacePoint&) const {}
+  /// See LightPathMis.
   void escape(PartialWeight&) const {}
+  /// See LightPathMis.
   template <class Interaction> void scatter(PartialWeight&, int, const Interaction&, const Vec3&, Float, Float) const {}
+  /// No light path competes with a hit.
   double emission_ratio(const PartialWeight&, int, std::uint32_t, const SurfacePoint*, const Vec3&, const Vec3&) const {
     return 0;
   }
+  /// No light path competes with a connection.
   template <class Interaction>
   double direct_ratio(const PartialWeight&, int, const Interaction&, const LightConnection&) const {
     return 0;
   }
+  /// No light path competes with a reconnection.
   template <class Interaction>
   double reconnection_ratio(const PartialWeight&, int, const Interaction&, const SurfacePoint&, const Vec3&,
                             Float) const {
