@@ -98,7 +98,8 @@ class PixelRays {
       : scene_(scene), scale_(1 / Float(extent.width), 1 / Float(extent.height)),
         tan_half_(scene.camera().tan_half(Float(extent.width) / Float(extent.height))),
         media_(initial_media(scene, {scene.camera().origin(), scene.camera().forward()})),
-        media_vary_(has_media(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)) {}
+        media_vary_(has_media(scene) &&
+                    (scene.camera().radius() > 0 || scene.camera().near() > 0 || scene.camera().is_parallel())) {}
 
   /// A camera ray at an offset from the centre of pixel (x, y) of the full image [pixels].
   template <class Stream> Ray sample(int x, int y, const Vec2& offset, Stream& stream) const {

@@ -21,6 +21,7 @@ std::string text(const Numbers3& v) { return fmt::format("({:g})", fmt::join(v, 
 using Beckmann = mc::BeckmannNormals<double>;
 using Trowbridge = mc::TrowbridgeReitzNormals<double>;
 using Visible = mc::TrowbridgeReitzVisibleNormals<double>;
+using BeckmannVisible = mc::BeckmannVisibleNormals<double>;
 
 // Normals of a surface with one roughness or two.
 template <class N> void bind_normals(py::module_& m, const char* name) {
@@ -37,6 +38,17 @@ struct RefractedIn {};
 struct RefractedOut {};
 struct Rotated {};
 
+// Normals visible from wo.
+template <class N> void bind_visible_normals(py::module_& m, const char* name) {
+  warp_class<N>(m, name).def(
+      py::init([name](const Numbers3& wo, double alpha_x, std::optional<double> alpha_y) {
+        const double ay = alpha_y.value_or(alpha_x);
+        return BoundWarp<N>(any_warp(fmt::format("{}(wo={}, alpha_x={:g}, alpha_y={:g})", name, text(wo), alpha_x, ay),
+                                     N(vector(wo), alpha_x, ay)));
+      }),
+      py::arg("wo"), py::arg("alpha_x"), py::arg("alpha_y") = py::none());
+}
+
 // Reflected and refracted lobes of the three kinds of normals. Visible normals contain wo.
 void bind_half_vectors(py::module_& m) {
   using py::arg;
@@ -50,19 +62,29 @@ void bind_half_vectors(py::module_& m) {
              arg("normals"), arg("wo"));
   };
   py::class_<BoundWarp<Reflected>, AnyWarp> reflected(m, "Reflected", contract("Reflected").c_str());
-  reflected.def(py::init([](const BoundWarp<Visible>& n) {
-                  return BoundWarp<Reflected>(any_warp("Reflected(" + n.name + ")", mc::Reflected(n.get())));
-                }),
-                arg("normals"), "Reflection about visible normals, which contain wo.");
+  const auto bind_visible = [&](auto normals) {
+    using W = typename decltype(normals)::type;
+    reflected.def(py::init([](const BoundWarp<W>& n) {
+                    return BoundWarp<Reflected>(any_warp("Reflected(" + n.name + ")", mc::Reflected(n.get())));
+                  }),
+                  arg("normals"), "Reflection about visible normals, which contain wo.");
+  };
+  bind_visible(std::type_identity<Visible>());
+  bind_visible(std::type_identity<BeckmannVisible>());
   bind_reflected(reflected, std::type_identity<Beckmann>());
   bind_reflected(reflected, std::type_identity<Trowbridge>());
 
   const auto bind_refracted = [&](auto& lobe, const char* name, auto make) {
     using Class = typename std::remove_reference_t<decltype(lobe)>::type;
-    lobe.def(py::init([name, make](const BoundWarp<Visible>& n, double eta) {
-               return Class(any_warp(fmt::format("{}({}, eta={:g})", name, n.name, eta), make(n.get(), eta)));
-             }),
-             arg("normals"), arg("eta"), "Refraction through visible normals, which contain wo.");
+    const auto visible = [&](auto normals) {
+      using W = typename decltype(normals)::type;
+      lobe.def(py::init([name, make](const BoundWarp<W>& n, double eta) {
+                 return Class(any_warp(fmt::format("{}({}, eta={:g})", name, n.name, eta), make(n.get(), eta)));
+               }),
+               arg("normals"), arg("eta"), "Refraction through visible normals, which contain wo.");
+    };
+    visible(std::type_identity<Visible>());
+    visible(std::type_identity<BeckmannVisible>());
     const auto with_wo = [&](auto normals) {
       using W = typename decltype(normals)::type;
       lobe.def(py::init([name, make](const BoundWarp<W>& n, const Numbers3& wo, double eta) {
@@ -106,17 +128,12 @@ void bind_lobes(py::module_& m) {
            arg("kappa"));
   bind_normals<Beckmann>(m, "BeckmannNormals");
   bind_normals<Trowbridge>(m, "TrowbridgeReitzNormals");
-  warp_class<Visible>(m, "TrowbridgeReitzVisibleNormals")
-      .def(py::init([](const Numbers3& wo, double alpha_x, std::optional<double> alpha_y) {
-             const double ay = alpha_y.value_or(alpha_x);
-             return make_warp("TrowbridgeReitzVisibleNormals(wo={}, alpha_x={:g}, alpha_y={:g})",
-                              Visible(vector(wo), alpha_x, ay), text(wo), alpha_x, ay);
-           }),
-           arg("wo"), arg("alpha_x"), arg("alpha_y") = py::none());
+  bind_visible_normals<Visible>(m, "TrowbridgeReitzVisibleNormals");
+  bind_visible_normals<BeckmannVisible>(m, "BeckmannVisibleNormals");
   bind_half_vectors(m);
   bind_rotated<mc::UniformHemisphere<double>, mc::CosineHemisphere<double>, mc::UniformCone<double>,
                mc::BlinnPhong<double>, mc::HenyeyGreenstein<double>, mc::VonMisesFisher<double>, Beckmann, Trowbridge,
-               Visible>(m);
+               Visible, BeckmannVisible>(m);
 }
 
 } // namespace bindings

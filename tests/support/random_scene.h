@@ -40,11 +40,14 @@ class RandomScene {
     if (chance(0.3)) builder.add(Light(ConstantBackground(Spectrum::Constant(Float(0.2)))));
     else if (chance(0.6)) builder.add(Light(sky()));
     builder.set(filter());
-    builder.set(ThinLens(Transform::look_at({0, 0, -4.5}, place(0.3), {0, 1, 0}), {.fov_axis = FovAxis::y,
-                                                                                   .fov = 30 + 20 * number(),
-                                                                                   .radius = chance(0.4) ? 0.2 : 0,
-                                                                                   .focus_distance = 4,
-                                                                                   .near = chance(0.4) ? 2.5 : 0}));
+    const bool is_parallel = chance(0.2);
+    builder.set(ThinLens(Transform::look_at({0, 0, -4.5}, place(0.3), {0, 1, 0}),
+                         {.fov_axis = FovAxis::y,
+                          .fov = 30 + 20 * number(),
+                          .radius = !is_parallel && chance(0.4) ? 0.2 : 0,
+                          .focus_distance = 4,
+                          .near = chance(0.4) ? 2.5 : 0,
+                          .parallel_width = is_parallel ? 1 + number() : 0}));
     return builder.build();
   }
 
@@ -86,7 +89,9 @@ class RandomScene {
     case 0: return Dielectric(Float(1.1 + number()), tint, tint);
     case 1: return FuzzyMetal(tint);
     case 2: return FuzzyMetal(tint, Float(0.05 + 0.4 * number()));
-    case 3: return RoughDielectric(Float(1.5), Float(0.1 + 0.5 * number()), tint, tint);
+    case 3:
+      if (chance(0.5)) return RoughDielectric<BeckmannFacets>(Float(1.5), Float(0.1 + 0.5 * number()), tint, tint);
+      return RoughDielectric(Float(1.5), Float(0.1 + 0.5 * number()), tint, tint);
     case 4: return RoughPlastic<LayeredBase>(Float(1.5), Float(0.1 + 0.4 * number()), tint / 2, tint);
     default: return Lambert(tint / 2);
     }

@@ -45,6 +45,8 @@ void add_bsdfs(Catalogue& c) {
     const std::vector<double> angles = {0, 60, grazing(alpha), 120};
     add_bsdf(c, "RoughConductor", fmt::format("TrowbridgeReitzFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::TrowbridgeReitzFacets(render::Float(alpha))), angles);
+    add_bsdf(c, "RoughConductor", fmt::format("BeckmannFacets, alpha={}", alpha),
+             render::RoughConductor(gold, gold_k, render::BeckmannFacets(render::Float(alpha))), angles);
     add_bsdf(c, "RoughConductor", fmt::format("BlinnPhongFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), angles);
   }
@@ -52,6 +54,16 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughDielectric", fmt::format("alpha={}", alpha),
              render::RoughDielectric(render::Float(1.5), render::Float(alpha)), {0, 60, grazing(alpha), 120, 150},
              {.eta = 1.5});
+  for (const double alpha : {1e-3, 0.3}) {
+    add_bsdf(c, "RoughDielectric", fmt::format("BeckmannFacets, alpha={}", alpha),
+             render::RoughDielectric<render::BeckmannFacets>(render::Float(1.5), render::Float(alpha)),
+             {0, 60, grazing(alpha), 120, 150}, {.eta = 1.5});
+    add_bsdf(c, "RoughPlastic", fmt::format("BeckmannFacets, alpha={}", alpha),
+             render::RoughPlastic<render::LayeredBase, render::BeckmannFacets>(render::Float(1.49),
+                                                                               render::Float(alpha), paint, one),
+             {0, 60, grazing(alpha), 120});
+  }
+  add_bsdf(c, "ThinDielectric", "eta=1.5", render::ThinDielectric{}, {0, 60, 89.9, 120});
 }
 
 } // namespace carlo

@@ -68,6 +68,13 @@ void add_lobes(Catalogue& c) {
     add_warp(c, "TrowbridgeReitzNormals", fmt::format("alpha={:g}", alpha),
              [alpha](auto s) { return mc::TrowbridgeReitzNormals<decltype(s)>(static_cast<decltype(s)>(alpha)); });
     for (const double degrees : {0.0, 60.0, 89.9})
+      add_warp(c, "BeckmannVisibleNormals", fmt::format("alpha={:g}, {:g} degrees", alpha, degrees),
+               [alpha, degrees](auto s) {
+                 using S = decltype(s);
+                 return mc::BeckmannVisibleNormals<S>(direction<S>(degrees), S(alpha), S(0.3 * alpha));
+               },
+               {.invert_eps = 64, .sample_eps = 64});
+    for (const double degrees : {0.0, 60.0, 89.9})
       add_warp(c, "TrowbridgeReitzVisibleNormals", fmt::format("alpha={:g}, {:g} degrees", alpha, degrees),
                [alpha, degrees](auto s) {
                  using S = decltype(s);

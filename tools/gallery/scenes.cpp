@@ -79,6 +79,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"ground-glass", "Rough glass, smooth glass and glossy paint under a sky", ours, "ground-glass", "", "", -2},
     {"mesh-formats", "Torus and trefoil knot", ours},
     {"globe", "Textured globe and tiled box under an evening sky", ours},
+    {"show-case", "Metal, ground glass and paint with Beckmann facets behind thin panes", ours},
 
     // Stages of real-time ray tracing courses, in a room of our own
     {"hard-shadows", "Room lit by two point lights and the sun", ours},

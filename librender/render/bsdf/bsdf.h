@@ -11,14 +11,17 @@
 #include <render/bsdf/smooth_plastic.h>
 #include <render/bsdf/textured_lambert.h>
 #include <render/bsdf/textured_plastic.h>
+#include <render/bsdf/thin_dielectric.h>
 #include <render/core/dispatch.h>
 
 namespace render {
 
 /// Any of the BSDFs; itself models BsdfLike.
 struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
-                           RoughDielectric, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
-                           SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor> {
+                           RoughDielectric<>, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
+                           SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor,
+                           RoughPlastic<LayeredBase, BeckmannFacets>, RoughDielectric<BeckmannFacets>,
+                           RoughConductor<BeckmannFacets>, ThinDielectric> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
@@ -47,7 +50,8 @@ struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<Layered
 struct TexturedBsdf
     : std::variant<TexturedLambert, TexturedPlastic<RoughPlastic<LayeredBase>>,
                    TexturedPlastic<RoughPlastic<LajollaBase>>, TexturedPlastic<SmoothPlastic<LayeredBase>>,
-                   TexturedPlastic<SmoothPlastic<LajollaBase>>> {
+                   TexturedPlastic<SmoothPlastic<LajollaBase>>,
+                   TexturedPlastic<RoughPlastic<LayeredBase, BeckmannFacets>>> {
   using variant::variant;
 
   /// BSDF at the texture coordinates uv.

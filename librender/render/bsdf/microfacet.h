@@ -3,6 +3,7 @@
 
 #include <render/bsdf/dielectric.h>
 
+#include <mc/warp/beckmann.h>
 #include <mc/warp/blinn_phong.h>
 #include <mc/warp/trowbridge_reitz.h>
 
@@ -79,6 +80,33 @@ class TrowbridgeReitzFacets {
 
  private:
   mc::TrowbridgeReitzSurface<Float> surface_;
+};
+
+/// Facets of Beckmann's distribution of roughness alpha: Gaussian slopes. The shadowing and masking are separable, with
+/// the exact G1 of such a surface.
+///   throws : Error unless alpha is a checked_alpha.
+///   Source : [WalterEtAl07], without its rational approximation of G1.
+class BeckmannFacets {
+ public:
+  /// Facets of roughness alpha.
+  explicit BeckmannFacets(Float alpha) : alpha_(checked_alpha(alpha)), normals_(alpha) {}
+
+  /// Roughness.
+  Float alpha() const { return alpha_; }
+  /// Density of facet area D(m) [1/sr].
+  Float d(const Vec3& m) const { return normals_.pdf(m) / m.z(); }
+  /// G1(w) / |cos w|; finite at the horizon, too.
+  Float g1_over_cos(const Vec3& w) const { return 1 / visible_normals({w.x(), w.y(), std::abs(w.z())}).area(); }
+  /// D G / |cos wo cos wi| for the facet normal m.
+  Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
+    return d(m) * g1_over_cos(wo) * g1_over_cos(wi);
+  }
+  /// Distribution of the normals visible from wo, which lies above the surface.
+  mc::BeckmannVisibleNormals<Float> visible_normals(const Vec3& wo) const { return {wo.normalized(), alpha_}; }
+
+ private:
+  Float alpha_;
+  mc::BeckmannNormals<Float> normals_;
 };
 
 /// Facets of the Blinn-Phong distribution D(m) = (n + 2) / (2 pi) cos^n, normalised so that the integral of D cos is 1.

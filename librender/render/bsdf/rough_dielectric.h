@@ -7,8 +7,8 @@
 
 namespace render {
 
-/// Rough boundary to a medium of relative index eta (inside over outside; the normal points outside). Facets of the GGX
-/// distribution reflect and refract like Dielectric.
+/// Rough boundary to a medium of relative index eta (inside over outside; the normal points outside). Its facets
+/// reflect and refract like Dielectric.
 ///   reflection : Ks F D G / (4 |cos wo cos wi|).
 ///   refraction : Kt (1 - F) D G |wo.h wi.h| / (|cos wo cos wi| (wo.h + e wi.h)^2). e is the index on the side of wi
 ///                over the index on the side of wo. Refraction divides radiance by e^2.
@@ -17,7 +17,7 @@ namespace render {
 ///            the wrong side.
 ///   throws : Error unless eta is a checked_ior, |eta - 1| >= 1e-4, alpha lies in [1e-4, 1] and the colours in [0, 1].
 ///   Source : [WalterEtAl07] equations 19-21.
-class RoughDielectric {
+template <class Facets = TrowbridgeReitzFacets> class RoughDielectric {
  public:
   /// Glass of a relative index, a roughness, and tints of reflection and transmission.
   RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
@@ -98,7 +98,7 @@ class RoughDielectric {
     // In double: at grazing facets the cosines are small differences. Exchanging wo and wi gives the same cosines.
     const double far_index = wo.z() < 0 ? 1 / double(eta_) : double(eta_), ratio = reflects ? 1 : far_index;
     const bool cancel = view.wo.z() + wi.z() < Float(0.5) && reflects; // as in half_vector
-    const Vec3d o = cancel ? unit_in_double(view.wo) : Vec3d(view.wo.cast<double>());
+    const Vec3d o = cancel ? unit_in_double(view.wo) : Vec3d(view.wo.template cast<double>());
     const Vec3d i = cancel ? unit_in_double(wi) : Vec3d(wi.cast<double>()), sum = o + ratio * i;
     const Vec3d m = (sum.z() < 0 ? Vec3d(-sum) : sum).normalized();
     const auto cos_o = Float(std::min(o.dot(m), 1.0)), cos_i = Float(reflects ? i.dot(m) : -i.dot(m));
@@ -118,7 +118,7 @@ class RoughDielectric {
   }
 
   Float eta_;
-  TrowbridgeReitzFacets facets_;
+  Facets facets_;
   Spectrum reflectance_, transmittance_;
 };
 

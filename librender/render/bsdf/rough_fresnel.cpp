@@ -1,14 +1,12 @@
 #include <render/bsdf/rough_fresnel.h>
 
-#include <render/bsdf/microfacet.h>
-
 namespace render {
 
 namespace {
 
 // Midpoint rule over the square of visible normals. Normals are symmetric about the plane of wo, so half a turn
 // suffices. The substitution 1 - u = inward^2 places more points at the rim, where facets are nearly edge-on.
-RoughFresnel::Albedos integrate(Float cosine, Float eta, const TrowbridgeReitzFacets& facets) {
+template <class Facets> RoughFresnel::Albedos integrate(Float cosine, Float eta, const Facets& facets) {
   constexpr int turns = 16, rings = 32;
   const Vec3 wo(std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine);
   const auto normals = facets.visible_normals(wo);
@@ -30,21 +28,19 @@ RoughFresnel::Albedos integrate(Float cosine, Float eta, const TrowbridgeReitzFa
   return {Float(reflected), Float(transmitted)};
 }
 
-RoughFresnel::Albedos of_smooth(Float cosine, Float eta) {
+RoughFresnel::Albedos integrate(Float cosine, Float eta, std::monostate) {
   const Float f = fresnel_dielectric(cosine, eta).reflectance;
   return {f, 1 - f};
 }
 
 } // namespace
 
-RoughFresnel::RoughFresnel(Float eta, Float alpha)
+RoughFresnel::RoughFresnel(Float eta, const CoatFacets& facets)
     : critical_(eta < 1 ? std::min(std::sqrt((1 - eta) * (1 + eta)), Float(0.999)) : Float(0)),
       cells_below_(critical_ > 0 ? below : 0) {
-  std::optional<TrowbridgeReitzFacets> facets;
-  if (alpha > 0) facets.emplace(alpha);
   std::vector<Node> nodes;
   const auto add = [&](Float cosine) {
-    const auto [reflected, transmitted] = facets ? integrate(cosine, eta, *facets) : of_smooth(cosine, eta);
+    const auto [reflected, transmitted] = std::visit([&](const auto& f) { return integrate(cosine, eta, f); }, facets);
     nodes.push_back({cosine, reflected, transmitted});
   };
   for (std::size_t i = 0; i < cells_below_; ++i)

@@ -1,17 +1,21 @@
 #pragma once
 /// Directional albedo of a rough dielectric coat.
 
-#include <render/core/types.h>
+#include <render/bsdf/microfacet.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <variant>
 #include <vector>
 
 namespace render {
 
-/// Shares of the light from one direction that a rough dielectric boundary reflects and transmits. The boundary has GGX
-/// facets and the relative index eta. Light that would hit a second facet is lost, so the sum is at most 1.
+/// Facets of a coat; none where it is smooth.
+using CoatFacets = std::variant<std::monostate, TrowbridgeReitzFacets, BeckmannFacets>;
+
+/// Shares of the light from one direction that a rough dielectric boundary of the relative index eta reflects and
+/// transmits. Light that would hit a second facet is lost, so the sum is at most 1.
 ///   eval : interpolates a table linearly in the cosine. Error of `transmitted`: .002 for eta in [1.01, 3] and .02 for
 ///          eta < 1, where it has a steep slope at the critical angle. Error of `reflected` in these ranges: .02 and
 ///          .07. It only controls sampling.
@@ -26,9 +30,8 @@ class RoughFresnel {
   };
 
   /// Builds the table. The caller checks the arguments.
-  ///   eta   : relative index > 0.
-  ///   alpha : roughness in [1e-4, 1]; 0 for a smooth coat.
-  RoughFresnel(Float eta, Float alpha);
+  ///   eta : relative index > 0.
+  RoughFresnel(Float eta, const CoatFacets& facets);
 
   /// Shares of light from a direction of this cosine.
   Albedos eval(Float cosine) const {

@@ -30,8 +30,9 @@ enum class InternalReflections {
 class LayeredBase {
  public:
   /// A base under a coat of the relative index eta.
-  ///   alpha : roughness of the coat; 0: smooth.
-  LayeredBase(Float eta, Float alpha, InternalReflections internal = InternalReflections::linear) : coat_(eta, alpha) {
+  ///   facets : facets of the coat; none: smooth.
+  LayeredBase(Float eta, const CoatFacets& facets, InternalReflections internal = InternalReflections::linear)
+      : coat_(eta, facets) {
     const Float mean = coat_.mean_transmitted();
     if (!(mean > 0)) return;
     scale_ = std::numbers::inv_pi_v<Float> / mean;
@@ -60,7 +61,7 @@ class LayeredBase {
 class LajollaBase {
  public:
   /// A base under a coat of the relative index eta.
-  LajollaBase(Float eta, Float, InternalReflections = InternalReflections::linear) : eta_(eta) {}
+  LajollaBase(Float eta, const CoatFacets&, InternalReflections = InternalReflections::linear) : eta_(eta) {}
 
   /// Colour of the base: its albedo.
   Spectrum color(const Spectrum& albedo) const { return albedo; }
@@ -95,9 +96,9 @@ template <class Base> class CoatedDiffuse {
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
   /// name : material name for error messages.
-  CoatedDiffuse(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular,
-                InternalReflections internal)
-      : eta_(checked_ior(name, eta)), base_(eta, alpha, internal) {
+  CoatedDiffuse(const std::string& name, Float eta, const CoatFacets& facets, const Spectrum& diffuse,
+                const Spectrum& specular, InternalReflections internal)
+      : eta_(checked_ior(name, eta)), base_(eta, facets, internal) {
     set_colors(checked_reflectance(name + ": diffuseReflectance", diffuse),
                checked_reflectance(name + ": specularReflectance", specular));
   }
@@ -131,7 +132,7 @@ template <class Base> class CoatedDiffuse {
   Float diffuse_y_ = 0, specular_y_ = 0;
 };
 
-/// Coat of GGX facets over a diffuse base, the same on both sides.
+/// Coat of facets over a diffuse base, the same on both sides.
 ///   eta    : index of refraction of the coat over the index of the outside.
 ///   eval   : Ks F D G / (4 cos wo cos wi) + Kd Base with F at the angle between wo and the half vector; 0 if wo and wi
 ///            are on different sides. Light that would hit a second facet is lost. White paint over LayeredBase has an
@@ -139,12 +140,13 @@ template <class Base> class CoatedDiffuse {
 ///   sample : mirrors wo about a visible normal, or samples a cosine-distributed direction, in proportion to the light
 ///            that coat and base reflect. The pdf is the density of the mixture [1/sr].
 ///   throws : Error unless eta is a checked_ior, alpha lies in [1e-4, 1] and the colours in [0, 1].
-template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Base> {
+template <class Base = LayeredBase, class Facets = TrowbridgeReitzFacets>
+class RoughPlastic : public CoatedDiffuse<Base> {
  public:
   /// Paint with a coat of relative index eta and roughness alpha.
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular,
                InternalReflections internal = InternalReflections::linear)
-      : CoatedDiffuse<Base>("rough plastic", eta, alpha, diffuse, specular, internal), facets_(alpha) {}
+      : CoatedDiffuse<Base>("rough plastic", eta, Facets(alpha), diffuse, specular, internal), facets_(alpha) {}
 
   std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float uc, const Vec2& u) const {
     const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);
@@ -191,7 +193,7 @@ template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Ba
     return this->specular() * lobe + this->base_value(r, f);
   }
 
-  TrowbridgeReitzFacets facets_;
+  Facets facets_;
 };
 
 } // namespace render

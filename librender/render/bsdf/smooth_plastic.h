@@ -16,7 +16,7 @@ template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<B
   /// Paint with a coat of relative index eta.
   SmoothPlastic(Float eta, const Spectrum& diffuse, const Spectrum& specular,
                 InternalReflections internal = InternalReflections::linear)
-      : CoatedDiffuse<Base>("plastic", eta, 0, diffuse, specular, internal) {}
+      : CoatedDiffuse<Base>("plastic", eta, CoatFacets(), diffuse, specular, internal) {}
 
   std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float uc, const Vec2& u) const {
     const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);

@@ -12,8 +12,9 @@ constexpr double most_skewed = 1e-4; // relative tolerance; files contain frames
 
 ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
     : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis),
-      tan_half_fov_(Float(std::tan(options.fov * mc::pi<double> / 360))), radius_(Float(options.radius)),
-      focus_distance_(Float(options.focus_distance)), near_(Float(options.near)),
+      is_parallel_(options.parallel_width > 0),
+      tan_half_fov_(Float(is_parallel_ ? options.parallel_width : std::tan(options.fov * mc::pi<double> / 360))),
+      radius_(Float(options.radius)), focus_distance_(Float(options.focus_distance)), near_(Float(options.near)),
       depth_(Float(options.far - options.near)) {
   const auto& axes = to_world.linear;
   mc::require(axes.allFinite() && origin_.allFinite() && (axes.colwise().norm().array() > 0).all(),
@@ -30,6 +31,9 @@ ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
   mc::require(options.fov > 0 && options.fov < 180, "camera: fov {} must lie in (0, 180) degrees", options.fov);
   mc::require(options.radius >= 0 && std::isfinite(options.radius), "camera: apertureRadius {} must be finite and >= 0",
               options.radius);
+  mc::require(options.parallel_width >= 0 && std::isfinite(options.parallel_width),
+              "camera: the width of parallel rays {} must be finite and >= 0", options.parallel_width);
+  mc::require(!is_parallel_ || radius_ == 0, "camera: parallel rays pass no lens; leave out the apertureRadius");
   mc::require(options.focus_distance > 0 && std::isfinite(options.focus_distance),
               "camera: focusDistance {} must be finite and > 0", options.focus_distance);
   mc::require(options.near >= 0 && std::isfinite(options.near), "camera: nearClip {} must be finite and >= 0",

@@ -27,6 +27,7 @@ struct LensOptions {
   double focus_distance = 1;         ///< Distance of the plane in focus [scene units].
   double near = 0;                   ///< Distance of the near plane [scene units]; nearer objects are invisible.
   double far = mc::infinity<double>; ///< Distance of the far plane [scene units]; farther objects are invisible.
+  double parallel_width = 0;         ///< Half the width of the film, for parallel rays [scene units]; 0: a lens.
 };
 
 /// Connection of a scene point to a point of the lens.
@@ -34,15 +35,16 @@ struct CameraWiSample {
   Vec2 s;              ///< Film point as in ThinLens::ray.
   Vec3 wi;             ///< Unit direction from the scene point to the lens.
   Float t_max;         ///< Distance from the scene point along wi to the near plane.
-  Float distance;      ///< Distance to the lens.
-  Float direction_pdf; ///< Density [1/sr] of the direction from the lens, for s uniform in [0,1]^2.
+  Float distance;      ///< Distance to the lens, or to its plane along parallel rays.
+  Float direction_pdf; ///< See ThinLens::direction_pdf().
 };
 
-/// A thin lens that is focused on a plane; with radius 0 a pinhole.
+/// A thin lens that is focused on a plane; with radius 0 a pinhole; with parallel_width an orthographic projection,
+/// which has no lens: its film points lie in the plane of the frame.
 ///   to_world : camera frame with x to the left, y up and z forward. The common length of the axes does not matter.
 ///   throws   : Error unless the frame is finite, with axes that are not 0, of equal length and orthogonal up to 1e-4.
-///              Error unless 0 < fov < 180, radius and near are finite and >= 0, focus_distance is finite and > 0, and
-///              far > near.
+///              Error unless 0 < fov < 180, radius, parallel_width and near are finite and >= 0, focus_distance is
+///              finite and > 0, and far > near. Error for a radius and a parallel_width.
 class ThinLens {
  public:
   /// A camera in a frame.
@@ -60,9 +62,13 @@ class ThinLens {
   Float radius() const { return radius_; }
   /// Distance of the near plane.
   Float near() const { return near_; }
+  /// Whether all rays have the same direction.
+  bool is_parallel() const { return is_parallel_; }
 
-  /// Tangents of half the horizontal and half the vertical field of view. `aspect` is width / height of the film.
+  /// Tangents of half the horizontal and half the vertical field of view; for parallel rays half the width and half the
+  /// height of the film [scene units]. `aspect` is width / height of the film.
   Vec2 tan_half(Float aspect) const {
+    if (is_parallel_) return {tan_half_fov_, tan_half_fov_ / aspect};
     if (fov_axis_ == FovAxis::diagonal) return Vec2(aspect, 1) * (tan_half_fov_ / std::hypot(aspect, Float(1)));
     const bool along_x = fov_axis_ == FovAxis::x || (fov_axis_ == FovAxis::smaller && aspect < 1) ||
                          (fov_axis_ == FovAxis::larger && aspect >= 1);
@@ -72,7 +78,9 @@ class ThinLens {
   /// Camera ray through the film point s in [0,1]^2, with (0,0) in the top left corner. u in [0,1)^2 selects the point
   /// of the lens.
   Ray ray(const Vec2& s, const Vec2& tan_half_xy, const Vec2& u) const {
-    const Vec3 toward = right_ * ((2 * s[0] - 1) * tan_half_xy[0]) + up_ * ((1 - 2 * s[1]) * tan_half_xy[1]) + forward_;
+    const Vec3 aside = right_ * ((2 * s[0] - 1) * tan_half_xy[0]) + up_ * ((1 - 2 * s[1]) * tan_half_xy[1]);
+    if (is_parallel_) return {origin_ + aside + near_ * forward_, forward_, depth_};
+    const Vec3 toward = aside + forward_;
     Vec3 start = origin_, d = toward;
     if (radius_ > 0) {
       const Vec2 lens = radius_ * mc::UniformDisk<Float>{}.sample(u);
@@ -85,6 +93,10 @@ class ThinLens {
     return {start + near_ * d, d.normalized(), depth_ * d.norm()};
   }
 
+  /// Distance over which direction_pdf() becomes a density of areas across the ray: the distance to the lens, or 1 for
+  /// parallel rays, which do not spread.
+  double spread(double distance) const { return is_parallel_ ? 1 : distance; }
+
   /// Connection of p to the point of the lens that u selects; none if p is not between the near and far planes. s may
   /// lie outside the film.
   std::optional<CameraWiSample> sample_wi(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
@@ -96,6 +108,10 @@ class ThinLens {
     const Vec3 away = p - (origin_ + offset);
     const Float z = away.dot(forward_);
     if (!(z > near_ && z - near_ < depth_)) return {};
+    if (is_parallel_) {
+      const Vec2 s((away.dot(right_) / tan_half_xy[0] + 1) / 2, (1 - away.dot(up_) / tan_half_xy[1]) / 2);
+      return CameraWiSample{s, -forward_, z - near_, z, direction_pdf(forward_, tan_half_xy)};
+    }
     const Vec3 toward = away / z + offset / focus_distance_;
     const Float distance = away.norm(), cosine = z / distance, area = 4 * tan_half_xy[0] * tan_half_xy[1];
     return CameraWiSample{{(toward.dot(right_) / tan_half_xy[0] + 1) / 2, (1 - toward.dot(up_) / tan_half_xy[1]) / 2},
@@ -105,8 +121,10 @@ class ThinLens {
                           1 / (cosine * cosine * cosine * area)};
   }
 
-  /// Density [1/sr] of a camera ray's direction; see CameraWiSample.
+  /// Density of a camera ray's direction [1/sr], for s uniform in [0,1]^2. For parallel rays the density of its place
+  /// [1 / area], since the direction is given.
   Float direction_pdf(const Vec3& d, const Vec2& tan_half_xy) const {
+    if (is_parallel_) return 1 / (4 * tan_half_xy[0] * tan_half_xy[1]);
     const Float cosine = d.dot(forward_);
     return 1 / (cosine * cosine * cosine * 4 * tan_half_xy[0] * tan_half_xy[1]);
   }
@@ -114,6 +132,7 @@ class ThinLens {
  private:
   Vec3 origin_, right_, up_, forward_; ///< Centre of the lens, and orthonormal axes.
   FovAxis fov_axis_;
+  bool is_parallel_;
   Float tan_half_fov_, radius_, focus_distance_, near_, depth_;
 };
 

@@ -31,7 +31,7 @@ class LightPathMis {
     const double cosine = std::abs(double(point.ng.dot(d)));
     const double distance2 = (point.p - from).cast<double>().squaredNorm();
     if (edges > 1) partial_mis.add_vertex(cosine, distance2);
-    else partial_mis.add_vertex_from_point(cosine, distance2);
+    else partial_mis.add_vertex_from_point(cosine, mc::sqr(light_tracer_->camera().spread(std::sqrt(distance2))));
   }
 
   /// The path leaves the scene.

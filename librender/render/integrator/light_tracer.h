@@ -51,7 +51,9 @@ class LightTracer {
   /// Number of light paths per camera path.
   double light_path_rate() const { return light_path_rate_; }
 
-  /// Density [1/sr] of the camera direction d for rays uniform over the whole film.
+  /// The camera.
+  const ThinLens& camera() const { return scene_->camera(); }
+  /// Density of the camera direction d for rays uniform over the whole film; see ThinLens::direction_pdf().
   double camera_pdf(const Vec3& d) const { return double(scene_->camera().direction_pdf(d, tan_half_)); }
 
   /// Direction sampling of the camera paths that are combined with these light paths.
@@ -192,8 +194,8 @@ void LightTracer::connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const
   ray.t_max = seen->t_max;
   const Float transmittance = shadow_transmittance(*scene_, ray, {}, rays);
   if (transmittance == 0) return;
-  const double from_camera =
-      double(seen->direction_pdf) * std::abs(double(isect.point.ng.dot(seen->wi))) / mc::sqr(double(seen->distance));
+  const double from_camera = double(seen->direction_pdf) * std::abs(double(isect.point.ng.dot(seen->wi))) /
+                             mc::sqr(camera.spread(double(seen->distance)));
   const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared(isect, subpath, wi, false, 1)) *
                            mc::sqr(from_camera / light_path_rate_);
   Spectrum value = transmittance * subpath.beta * f;

@@ -116,6 +116,8 @@ TEST(BadInput, WarpsOnThePlaneAndTheSphere) {
   add(rows, "BlinnPhong", "finite and >= 0", {nan, inf, -1}, [](double x) { BlinnPhong<double>{x}; });
   add(rows, "HenyeyGreenstein", "(-1, 1)", {nan, 1, -1, 1.5}, [](double x) { HenyeyGreenstein<double>{x}; });
   add(rows, "VonMisesFisher", "finite and >= 0", {nan, inf, -1}, [](double x) { VonMisesFisher<double>{x}; });
+  add(rows, "BeckmannVisibleNormals", "unit vector", {nan, inf, 0, 2},
+      [](double x) { BeckmannVisibleNormals<double>(V(0, 0, x), 0.1); });
   add(rows, "BeckmannNormals", "[1e-6, 1000]", {nan, inf, 0, -1, 2000},
       [](double x) { BeckmannNormals<double>(0.1, x); });
   add(rows, "TrowbridgeReitz", "[1e-6, 1000]", {nan, inf, 0, -1, 2000},

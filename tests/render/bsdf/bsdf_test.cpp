@@ -11,7 +11,7 @@ namespace {
 using namespace render;
 
 static_assert(BsdfLike<Lambert> && BsdfLike<FuzzyMetal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic<>> &&
-              BsdfLike<RoughPlastic<LajollaBase>> && BsdfLike<RoughDielectric> &&
+              BsdfLike<RoughPlastic<LajollaBase>> && BsdfLike<RoughDielectric<>> &&
               BsdfLike<RoughConductor<TrowbridgeReitzFacets>> && BsdfLike<RoughConductor<BlinnPhongFacets>> &&
               BsdfLike<SmoothPlastic<>> && BsdfLike<SmoothPlastic<LajollaBase>> && BsdfLike<SmoothConductor> &&
               BsdfLike<Bsdf>);

@@ -29,6 +29,17 @@ Vec3 upper(mc::Pcg& random) {
 }
 
 // Directions on both sides at alpha = 1e-5 each.
+TEST(RoughPlastic, ObeysTheLawsWithBeckmannFacets) {
+  for (const double alpha : {1e-4, 0.3})
+    for (const double angle : {0.0, 85.0, 120.0}) {
+      const RoughPlastic<LayeredBase, BeckmannFacets> paint(Float(1.49), Float(alpha), Spectrum::Constant(Float(0.5)),
+                                                            Spectrum::Ones());
+      const auto report =
+          mc::check_bsdf<Float>(paint, support::at_degrees(angle), {.statistics = {.samples = 50'000, .alpha = 1e-5}});
+      EXPECT_TRUE(report.passed()) << alpha << ", " << angle << " degrees\n" << report.to_string();
+    }
+}
+
 TEST(RoughPlastic, ObeysTheLaws) {
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0})
     for (const double angle : {0.0, 60.0, 85.0, 120.0}) {

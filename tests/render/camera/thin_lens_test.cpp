@@ -29,6 +29,32 @@ TEST(ThinLens, PinholeSpansItsFieldOfView) {
   EXPECT_EQ(through(1, 1).o, camera.origin());
 }
 
+// sample_wi() of a point on a ray returns the ray's film point, and the density of its place is 1 over the film's area.
+TEST(ThinLens, ParallelRaysSpanTheFilm) {
+  const ThinLens camera = facing({.near = 0.5, .far = 9, .parallel_width = 3}, Vec3d(1, 2, 3));
+  const Vec2 half = camera.tan_half(Float(1.5));
+  EXPECT_LE((half - Vec2(3, 2)).norm(), 1e-6);
+  EXPECT_LE((camera.ray(Vec2(0, 0), half, Vec2::Zero()).o - Vec3(-2, 4, Float(2.5))).norm(), 1e-6);
+  mc::Pcg random(7);
+  for (int i = 0; i < 100; ++i) {
+    const Vec2 s = random.point<Float, 2>();
+    const Ray ray = camera.ray(s, half, Vec2::Zero());
+    EXPECT_EQ(ray.d, camera.forward());
+    EXPECT_EQ(ray.t_max, Float(8.5));
+    const Float t = Float(8) * random.uniform<Float>();
+    const auto seen = camera.sample_wi(ray.at(t), half, Vec2::Zero());
+    ASSERT_TRUE(seen);
+    EXPECT_LE((seen->s - s).norm(), 1e-6);
+    EXPECT_EQ(seen->wi, -camera.forward());
+    EXPECT_NEAR(seen->t_max, t, 1e-5);
+    EXPECT_NEAR(seen->direction_pdf, 1.0 / 24, 1e-7);
+    EXPECT_EQ(camera.spread(double(seen->distance)), 1);
+  }
+  EXPECT_FALSE(camera.sample_wi(Vec3(1, 2, Float(2.6)), half, Vec2::Zero()));
+  EXPECT_THROW(facing({.radius = 1, .parallel_width = 1}), mc::Error);
+  EXPECT_THROW(facing({.parallel_width = -1}), mc::Error);
+}
+
 TEST(ThinLens, TheFieldOfViewHasAnAxis) {
   using Axis = FovAxis;
   struct Row {

@@ -103,7 +103,7 @@ TEST(DirectionMixture, TransmittedSample_HasTransmittedEta) {
   for (const Strategy& s : strategies) {
     const DirectionMixture directions(scene, s);
     for (const Float side : {Float(1), Float(-1)}) {
-      const ShadingPoint<RoughDielectric> at{glass, point, frame, Vec3(1, 0, 2 * side).normalized()};
+      const ShadingPoint<RoughDielectric<>> at{glass, point, frame, Vec3(1, 0, 2 * side).normalized()};
       const Float across = side > 0 ? Float(1.5) : 1 / Float(1.5);
       int crossing = 0;
       for (std::uint32_t i = 0; i < 1000; ++i) {

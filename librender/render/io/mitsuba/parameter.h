@@ -22,7 +22,6 @@ struct Declaration {
   std::string lajolla = {};      ///< Fallback in the dialect lajolla; empty: the same.
   bool has_effect = true;        ///< False: accepted without effect on the image.
   std::optional<bool> only{};    ///< A switch that may only have this value, its default.
-  std::string departure = {};    ///< Warning: how the fallback differs from the default of Mitsuba. Empty: equal.
   std::string mitsuba_alternative =
       {}; ///< For a parameter that only lajolla has: the equivalent in Mitsuba; empty: Mitsuba has the parameter.
   std::string lajolla_alternative =
@@ -90,7 +89,6 @@ template <class T> struct Parameter {
     }
     if (context.dialect() == Dialect::lajolla && lajolla_fallback) return in_scene(*lajolla_fallback, context);
     if (!fallback) plugin.fail(fmt::format("parameter '{}' is missing: {}", declared.name, declared.meaning));
-    if (!declared.departure.empty() && context.dialect() == Dialect::mitsuba) context.warn(plugin, declared.departure);
     return in_scene(*fallback, context);
   }
 };

@@ -235,6 +235,52 @@ TEST_F(PluginsTest, ConductorsAreMetals) {
   }
 }
 
+// The facets of a file without a distribution are those of its dialect.
+TEST_F(PluginsTest, FacetsAreBeckmannsOrGgx) {
+  const render::Vec3 wo = render::Vec3(render::Float(0.6), 0, render::Float(0.8)), wi(0, 0, 1);
+  const auto value = [&](const char* type, const std::string& more, const char* dialect) {
+    const auto file = render::read_mitsuba(scene(std::string(sensor) + "<shape type=\"sphere\"><bsdf type=\"" + type +
+                                                 "\"><float name=\"alpha\" value=\"0.3\"/>" + more + "</bsdf></shape>"),
+                                           render::dialect_from(dialect));
+    return double(file.scene.bsdf(file.scene.surfaces()[0]).eval(wo, wi)[0]);
+  };
+  const std::string beckmann = R"(<string name="distribution" value="beckmann"/>)",
+                    ggx = R"(<string name="distribution" value="ggx"/>)";
+  for (const char* type : {"roughconductor", "roughdielectric", "roughplastic"}) {
+    const double b = value(type, beckmann, "mitsuba"), g = value(type, ggx, "mitsuba");
+    EXPECT_EQ(value(type, "", "mitsuba"), b) << type;
+    EXPECT_EQ(value(type, ggx, "lajolla"), value(type, "", "lajolla")) << type;
+    EXPECT_GT(std::abs(b / g - 1), 0.02) << type;
+  }
+  const auto metal = render::metal_constants("Cu");
+  const double index = 1.000277;
+  const render::RoughConductor<render::BeckmannFacets> expected(
+      metal.eta / render::Float(index), metal.k / render::Float(index), render::BeckmannFacets(render::Float(0.3)));
+  EXPECT_NEAR(value("roughconductor", "", "mitsuba"), double(expected.eval(wo, wi)[0]), 1e-6);
+}
+
+TEST_F(PluginsTest, ThinGlassPassesStraight) {
+  const auto file = render::read_mitsuba(
+      scene(std::string(sensor) + R"(<shape type="rectangle"><bsdf type="thindielectric"/></shape>)"));
+  const render::Vec3 wo(render::Float(0.6), 0, render::Float(0.8));
+  const auto through = file.scene.bsdf(file.scene.surfaces()[0]).sample(wo, render::Float(0.5), {0, 0});
+  ASSERT_TRUE(through);
+  EXPECT_EQ(through->wi, -wo);
+}
+
+// The film spans the length of the x axis on both sides, and wrappers of integrators render what they contain.
+TEST_F(PluginsTest, OrthographicSensorsAndWrappers) {
+  const auto file = render::read_mitsuba(scene(R"(<sensor type="orthographic"><transform name="toWorld">
+<scale x="2.5" y="2.5"/><translate z="-3"/></transform></sensor><shape type="cube"/>
+<integrator type="moment"><integrator type="aov"><string name="aovs" value="z:depth"/>
+<integrator type="path"><integer name="maxDepth" value="7"/></integrator></integrator></integrator>)"));
+  EXPECT_TRUE(file.scene.camera().is_parallel());
+  EXPECT_LE((file.scene.camera().tan_half(2) - render::Vec2(2.5f, 1.25f)).norm(), 1e-6);
+  EXPECT_EQ(file.defaults.max_depth, 7);
+  EXPECT_THAT(refusal(std::string(sensor) + "<shape type=\"cube\"/>\n<integrator type=\"moment\"/>"),
+              testing::HasSubstr("s.xml:3: <integrator>: parameter '<integrator>' is missing"));
+}
+
 TEST_F(PluginsTest, AnisotropicFacetsAreRefused) {
   const auto said = [&](const std::string& type, const std::string& u, const std::string& v, const std::string& more) {
     const auto along = [](const char* name, const std::string& value) {

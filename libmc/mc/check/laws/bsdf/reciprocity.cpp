@@ -3,6 +3,9 @@
 #include <mc/check/laws/bsdf/bsdf_law.h>
 #include <mc/core/types.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace mc {
 
 namespace {
@@ -20,8 +23,15 @@ double squared_ratio(const BsdfView& view, const DirectionPair& pair) {
   return pair.transmitted ? squared_index(pair.wi, view.options) / squared_index(view.wo, view.options) : 1.0;
 }
 
+// Whether no channel reaches the smallest normal number of the BSDF's scalar. Such values have no relative precision.
+bool underflows(const BsdfView& view, const Channels& f) {
+  const double least = view.bsdf.is_float ? std::numeric_limits<float>::min() : std::numeric_limits<double>::min();
+  return std::all_of(f.value.begin(), f.value.begin() + f.count, [&](double x) { return std::abs(x) < least; });
+}
+
 // Multiplies each side by the cosine of the other: wo may lie in the horizon.
 double error(const BsdfView& view, const DirectionPair& pair, const Quantity& q) {
+  if (underflows(view, pair.f) && underflows(view, pair.f_reverse)) return 0;
   return relative_difference(scaled(pair.f, squared_ratio(view, pair) * q.factor(view.wo.z())),
                              scaled(pair.f_reverse, q.factor(pair.wi.z())));
 }

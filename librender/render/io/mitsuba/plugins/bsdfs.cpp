@@ -93,42 +93,59 @@ template <class Paint> Material painted(Paint paint, const Reflectance& diffuse,
   return one_sided(TexturedBsdf(TexturedPlastic<Paint>(std::move(paint), std::move(base), std::move(coat))));
 }
 
+// Distributions of facets, in the order of their names in distribution().
+enum class FacetShape { beckmann, ggx, phong };
+
 template <class Base>
-Material plastic_over(Float eta, double alpha, const Reflectance& diffuse, const Reflectance& specular,
-                      InternalReflections internal) {
+Material plastic_over(Float eta, double alpha, FacetShape facets, const Reflectance& diffuse,
+                      const Reflectance& specular, InternalReflections internal) {
   const Spectrum base = constant_of(diffuse), coat = constant_of(specular);
   if (alpha == 0) return painted(SmoothPlastic<Base>(eta, base, coat, internal), diffuse, specular);
+  if constexpr (std::is_same_v<Base, LayeredBase>)
+    if (facets == FacetShape::beckmann)
+      return painted(RoughPlastic<Base, BeckmannFacets>(eta, Float(alpha), base, coat, internal), diffuse, specular);
   return painted(RoughPlastic<Base>(eta, Float(alpha), base, coat, internal), diffuse, specular);
+}
+
+Material make_roughplastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
+                           FacetShape facets, const Reflectance& diffuse, const Reflectance& specular, bool nonlinear,
+                           std::size_t base) {
+  const Float eta = relative_index(inside, outside);
+  const double alpha = alpha_of(slope, roughness);
+  mc::require(!nonlinear || base != 1, "nonlinear needs the base layered; that of lajolla ignores the coat");
+  mc::require(facets == FacetShape::ggx || base != 1, "beckmann needs the base layered; the facets of lajolla are ggx");
+  const auto internal = nonlinear ? InternalReflections::nonlinear : InternalReflections::linear;
+  return base == 1 ? plastic_over<LajollaBase>(eta, alpha, facets, diffuse, specular, internal)
+                   : plastic_over<LayeredBase>(eta, alpha, facets, diffuse, specular, internal);
 }
 
 Material make_plastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
                       const Reflectance& diffuse, const Reflectance& specular, bool nonlinear, std::size_t base) {
-  const Float eta = relative_index(inside, outside);
-  const double alpha = alpha_of(slope, roughness);
-  mc::require(!nonlinear || base != 1, "nonlinear needs the base layered; that of lajolla ignores the coat");
-  const auto internal = nonlinear ? InternalReflections::nonlinear : InternalReflections::linear;
-  return base == 1 ? plastic_over<LajollaBase>(eta, alpha, diffuse, specular, internal)
-                   : plastic_over<LayeredBase>(eta, alpha, diffuse, specular, internal);
+  return make_roughplastic(inside, outside, slope, roughness, FacetShape::ggx, diffuse, specular, nonlinear, base);
 }
 
-Material make_roughplastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                           std::size_t, const Reflectance& diffuse, const Reflectance& specular, bool nonlinear,
-                           std::size_t base) {
-  return make_plastic(inside, outside, slope, roughness, diffuse, specular, nonlinear, base);
+Bsdf glass(Float eta, double alpha, FacetShape facets, const Spectrum& reflectance, const Spectrum& transmittance) {
+  if (alpha == 0) return Dielectric(eta, reflectance, transmittance);
+  if (facets == FacetShape::beckmann)
+    return RoughDielectric<BeckmannFacets>(eta, Float(alpha), reflectance, transmittance);
+  return RoughDielectric<>(eta, Float(alpha), reflectance, transmittance);
 }
 
 Bsdf make_dielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
                      const Spectrum& reflectance, const Spectrum& transmittance) {
-  const Float eta = relative_index(inside, outside);
-  const double alpha = alpha_of(slope, roughness);
-  if (alpha == 0) return Dielectric(eta, reflectance, transmittance);
-  return RoughDielectric(eta, Float(alpha), reflectance, transmittance);
+  return glass(relative_index(inside, outside), alpha_of(slope, roughness), FacetShape::ggx, reflectance,
+               transmittance);
 }
 
 Bsdf make_roughdielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                          const std::optional<double>& alpha_u, const std::optional<double>& alpha_v, std::size_t,
+                          const std::optional<double>& alpha_u, const std::optional<double>& alpha_v, FacetShape facets,
                           const Spectrum& reflectance, const Spectrum& transmittance) {
-  return make_dielectric(inside, outside, isotropic(slope, alpha_u, alpha_v), roughness, reflectance, transmittance);
+  return glass(relative_index(inside, outside), alpha_of(isotropic(slope, alpha_u, alpha_v), roughness), facets,
+               reflectance, transmittance);
+}
+
+Bsdf make_thindielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
+  return ThinDielectric(relative_index(inside, outside), reflectance, transmittance);
 }
 
 Material make_twosided(Material inner) {
@@ -139,13 +156,15 @@ Material make_twosided(Material inner) {
 Material make_roughconductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
                              const std::optional<Spectrum>& k, double outside, const Slope& slope,
                              const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
-                             std::size_t distribution, const Spectrum& reflectance) {
+                             FacetShape facets, const Spectrum& reflectance) {
   // F is 1 at every angle for eta = 0.
   const OpticalConstants metal =
       constants_of({material, eta, k}, outside).value_or(OpticalConstants{Spectrum::Zero(), Spectrum::Ones()});
   const auto alpha = Float(isotropic(slope, alpha_u, alpha_v).alpha);
   if (alpha == 0) return one_sided(Bsdf(SmoothConductor(metal.eta, metal.k, reflectance)));
-  if (distribution == 1)
+  if (facets == FacetShape::beckmann)
+    return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, BeckmannFacets(alpha), reflectance)));
+  if (facets == FacetShape::phong)
     return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, BlinnPhongFacets(alpha), reflectance)));
   return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, TrowbridgeReitzFacets(alpha), reflectance)));
 }
@@ -217,11 +236,14 @@ Parameter<std::optional<Spectrum>> k_of_metal() {
   return optional(color("k", "", "extinction coefficient, >= 0; not 0 where eta is"));
 }
 
-Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
-  auto p = choice("distribution", names, "of the facets; Mitsuba's default, beckmann, is not supported", 0);
-  p.declared.departure = "facets are ggx's; Mitsuba's would be beckmann's, which are not supported. Say distribution "
-                         "ggx, or --dialect lajolla";
-  return p;
+Parameter<FacetShape> distribution(const std::vector<std::string>& names) {
+  const Parameter<std::size_t> index = choice("distribution", names, "of the facets' normals", 0);
+  const Parameter<FacetShape> p{
+      index.declared,
+      [index](const XmlElement& e, Context& context) { return static_cast<FacetShape>(index.parse(e, context)); },
+      {},
+      {}};
+  return p.with_default(FacetShape::beckmann, "beckmann").with_lajolla_default(FacetShape::ggx, "ggx");
 }
 
 Parameter<std::size_t> base() {
@@ -301,25 +323,29 @@ const Plugins<Material>& bsdf_plugins() {
                        refractive_index("extIOR", "outside", 1.000277), alpha_of_smooth("roughdielectric"), roughness(),
                        reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
                        reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
+      plugin<Material>("thindielectric", "a pane of glass too thin to displace light", make_thindielectric,
+                       refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
+                       reflectance("specularTransmittance", "factor of what passes, in [0, 1]", one)),
       plugin<Material>("plastic", "polished paint: a smooth clear coat over a diffuse base", make_plastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
                        alpha_of_smooth("roughplastic"), roughness(), color_of_base(), color_of_coat(), nonlinear(),
                        base()),
       plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base", make_roughplastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
-                       alpha(), roughness(), distribution({"ggx"}), color_of_base(), color_of_coat(), nonlinear(),
-                       base()),
+                       alpha(), roughness(), distribution({"beckmann", "ggx"}), color_of_base(), color_of_coat(),
+                       nonlinear(), base()),
       plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
                        refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
                        alpha(), roughness(), slope_along("alphaU", "u"), slope_along("alphaV", "v"),
-                       distribution({"ggx"}),
+                       distribution({"beckmann", "ggx"}),
                        reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
                        reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
-      plugin<Material>(
-          "roughconductor", "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
-          make_roughconductor, metal(), eta_of_metal(), k_of_metal(), refractive_index("extEta", "outside", 1.000277),
-          alpha(), slope_along("alphaU", "u"), slope_along("alphaV", "v"), distribution({"ggx", "phong"}),
-          reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>("roughconductor", "metal with facets, of which Blinn-Phong's have the exponent 2 / alpha^2 - 2",
+                       make_roughconductor, metal(), eta_of_metal(), k_of_metal(),
+                       refractive_index("extEta", "outside", 1.000277), alpha(), slope_along("alphaU", "u"),
+                       slope_along("alphaV", "v"), distribution({"beckmann", "ggx", "phong"}),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, on both sides of the surface", make_twosided,
                        inner_bsdf("what covers both sides")),
       plugin<Material>(

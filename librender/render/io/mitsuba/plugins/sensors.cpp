@@ -41,6 +41,17 @@ SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t 
                      radius ? *radius : *focal_length / (2 * *f_number));
 }
 
+// Mitsuba's film spans [-1, 1] of the frame's x axis, whose length is the scale of toWorld. The length of the z axis
+// has no meaning.
+SensorSettings make_orthographic(Transform to_world, double near, double far, const FilmSettings& film, int spp) {
+  LensOptions lens;
+  lens.parallel_width = to_world.linear.col(0).norm();
+  to_world.linear.col(2) = to_world.linear.col(2).normalized() * lens.parallel_width;
+  lens.near = near;
+  lens.far = far;
+  return {ThinLens(to_world, lens), film, spp};
+}
+
 Parameter<double> fov() { return number("fov", "degrees", "field of view along fovAxis, in (0, 180)"); }
 
 // Reads a length such as "50mm".
@@ -50,23 +61,34 @@ double millimetres_of(const XmlElement& e, Context&) {
   return parse_number(e, text);
 }
 
-// A row for a camera, with the parameters common to all cameras.
+Parameter<Transform> frame() { return transform("toWorld", "the camera's frame: x to the left, y up, z forward"); }
+Parameter<double> near_clip() {
+  return number("nearClip", "scene units", 0, "what stands closer before the lens is cut away");
+}
+Parameter<double> far_clip() {
+  return number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip");
+}
+Parameter<FilmSettings> film_of_sensor() {
+  const FilmSettings by_mitsuba{768, 576, GaussianFilter()}, by_lajolla{256, 256, BoxFilter()};
+  return nested("film", "the picture", film_plugins)
+      .with_default(by_mitsuba, "hdrfilm")
+      .with_lajolla_default(by_lajolla, "hdrfilm");
+}
+Parameter<int> sampler_of_sensor() {
+  return nested("sampler", "how many samples", sampler_plugins).with_default(default_spp, "independent");
+}
+
+// A row for a camera with a field of view.
 template <class Make, class Fov, class... V>
 Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make, const Parameter<Fov>& fov,
                                      const Parameter<V>&... parameters) {
-  const FilmSettings in_mitsuba{768, 576, GaussianFilter()}, with_lajolla_default{256, 256, BoxFilter()};
   return plugin<SensorSettings>(
-      std::move(name), std::move(meaning), make,
-      transform("toWorld", "the camera's frame: x to the left, y up, z forward"), fov,
+      std::move(name), std::move(meaning), make, frame(), fov,
       choice("fovAxis", {"x", "y", "smaller", "larger", "diagonal"}, "the side of the film that fov spans", 0),
-      number("nearClip", "scene units", 0, "what stands closer before the lens is cut away"),
-      number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip"),
+      near_clip(), far_clip(),
       optional(number("focusDistance", "scene units", "to the plane in focus; of no effect for a pinhole"))
           .with_default(std::nullopt, "farClip, or 1e4"),
-      nested("film", "the picture", film_plugins)
-          .with_default(in_mitsuba, "hdrfilm")
-          .with_lajolla_default(with_lajolla_default, "hdrfilm"),
-      nested("sampler", "how many samples", sampler_plugins).with_default(default_spp, "independent"), parameters...);
+      film_of_sensor(), sampler_of_sensor(), parameters...);
 }
 
 FilmSettings make_film(int width, int height, const Filter& filter, double, double, std::size_t) {
@@ -175,6 +197,13 @@ IntegratorSettings make_path(int max_depth) {
   return {.max_depth = max_depth};
 }
 
+IntegratorSettings make_same(const IntegratorSettings& inner) { return inner; }
+
+Plugin<IntegratorSettings> wrapper(std::string name, std::string meaning) {
+  return plugin<IntegratorSettings>(std::move(name), std::move(meaning), make_same,
+                                    nested("integrator", "what renders the picture", integrator_plugins));
+}
+
 } // namespace
 
 const Plugins<SensorSettings>& sensor_plugins() {
@@ -195,6 +224,10 @@ const Plugins<SensorSettings>& sensor_plugins() {
           optional(number("apertureRadius", "scene units", "radius of the lens, >= 0")),
           optional(number("fNumber", "", "focalLength over the lens's diameter, > 0, instead of the radius (ours)")),
           optional(number("focalLength", "scene units", "of the lens; fov says how much is seen (ours)"))),
+      plugin<SensorSettings>("orthographic",
+                             "parallel rays; the film is twice as wide as the x axis of toWorld is long",
+                             make_orthographic, frame(), near_clip(), far_clip(), film_of_sensor(), sampler_of_sensor())
+          .accepting({no_effect("focusDistance", "parallel rays have no focus")}),
   };
   return rows;
 }
@@ -243,6 +276,9 @@ const Plugins<IntegratorSettings>& integrator_plugins() {
           "ao", "ambient occlusion: the share of a uniform sky's light that nothing near keeps away", make_ao,
           number("rayLength", "scene units", "what stands farther away counts as sky, > 0"))
           .accepting({no_effect("shadingSamples", "--spp says it")}),
+      wrapper("moment", "the integrator inside it; every EXR contains the variance"),
+      wrapper("aov", "the integrator inside it; carlo render --layers writes normals, depth and albedo")
+          .accepting({no_effect("aovs", "--layers writes all it has")}),
       plugin<IntegratorSettings>(
           "normals", "the normal n of what is seen, as the colour (n + 1) / 2; beyond it the sky (ours)", make_normals),
   };
