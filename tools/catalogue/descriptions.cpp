@@ -78,6 +78,7 @@ constexpr auto descriptions = std::to_array<Description>({
     {"RoughDielectric", "BSDF of ground glass: microfacets that reflect and refract"},
     {"Sphere", "Points and directions of a sphere as seen from a point"},
     {"TriangleMesh", "Points and directions of a triangle mesh as seen from a point"},
+    {"Cylinder", "Points and directions of a cylinder as seen from a point"},
     {"Disk", "Points and directions of a disk or an ellipse as seen from a point"},
     {"LightSampler", "The choice of one light of a scene, by its contribution at a point"},
     {"PointLight", "The choice of point lights, by their distance"},

@@ -209,6 +209,21 @@ void add_disk_seen(Catalogue& c) {
              disk.area() / mc::pi<double>);
 }
 
+// A cylinder, with its points as turns and shares of the height; from outside and from its axis.
+void add_cylinder_seen(Catalogue& c) {
+  const Vec3d base(0.5, -1, 2), end(1, 0.5, 3);
+  const Cylinder cylinder(base, end, 0.75);
+  const auto image = [=](const SurfacePoint& p) {
+    const auto uv = cylinder.uv({}, p);
+    return Vec2(Float(uv[0]), Float(uv[1]));
+  };
+  const auto surface = [=](const Vec2& x) { return *cylinder.sample_area(x); };
+  for (const double away : {0.0, 3.0})
+    add_points(c, "Cylinder", away == 0 ? "from the axis" : "from outside", cylinder,
+               ((base + end) / 2 + away * cylinder.frame().x).cast<Float>(), mc::Box<Float, 2>{}, image, surface,
+               cylinder.area());
+}
+
 // Light selection at a point.
 struct LightsSeen {
   using Scalar = Float;
@@ -355,6 +370,7 @@ void add_shapes(Catalogue& c) {
   add_spheres_seen(c);
   add_meshes_seen(c);
   add_disk_seen(c);
+  add_cylinder_seen(c);
   add_choices(c);
   add_spot_choice(c);
   add_mask(c);

@@ -78,6 +78,7 @@ bool write(ResultWriter& results, const IntegralTarget& target, const Measuremen
   results.write(base + ".csv", false, to_csv(target, m));
   nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
   if (pictures) about["reference"] = {{"spp", pictures->reference_spp}, {"error", pictures->reference_error}};
+  if (pictures && !pictures->missing_light.empty()) about["reference"]["missing_light"] = pictures->missing_light;
   results.write(base + ".json", false, json_text(to_json(target, m, about)));
   results.write(base + ".gp", false, to_script(target, m, name));
   fmt::print("{}", summary(target, m));

@@ -261,6 +261,7 @@ TradeResults trade_results_of(const Measurement& m, const TradeGoals& wanted, co
 // Adds the reference picture, and the bias of each method with its interval.
 void add(const PictureMeasurement& p, ordered_json& j) {
   j["reference"] = {{"spp", p.reference_spp}, {"error", p.reference_error}};
+  if (!p.missing_light.empty()) j["reference"]["missing_light"] = p.missing_light;
   j["biases"] = ordered_json::array();
   for (std::size_t i = 0; i < p.biases.size(); ++i)
     j["biases"].push_back({{"way", curve_label(p.measurement.curves[i])}, {"bias", to_json(p.biases[i].bias)}});

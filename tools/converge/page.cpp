@@ -195,9 +195,10 @@ std::string facts(const PageEntry& one) {
   const UnitCubeIntegral& e = one.target->integral;
   const Measurement& m = *one.measurement;
   if (one.pictures)
-    return fmt::format("{}; {}&times;{} pixels; reference of {:.0f} samples per pixel with an error of {:.2g}",
+    return fmt::format("{}; {}&times;{} pixels; reference of {:.0f} samples per pixel with an error of {:.2g}{}{}",
                        escape_html(e.source), one.pictures->reference.width, one.pictures->reference.height,
-                       one.pictures->reference_spp, one.pictures->reference_error);
+                       one.pictures->reference_spp, one.pictures->reference_error,
+                       one.pictures->missing_light.empty() ? "" : "; ", escape_html(one.pictures->missing_light));
   std::string s = fmt::format("{}{} dimension{}", e.source.empty() ? "" : escape_html(e.source) + "; ", e.dim,
                               e.dim == 1 ? "" : "s");
   s += m.truth_error > 0 ? fmt::format("; reference {:.12g} &plusmn; {:.2g}", m.truth, m.truth_error)

@@ -82,7 +82,8 @@ struct PictureMeasurement {
   std::vector<render::Image> pictures; ///< one for each method, with its largest number of samples
   double reference_error = 0;          ///< root of the relmse caused by the noise of the reference
   double reference_spp = 0;
-  std::string cut_short; ///< why memory ended the run before max_spp; empty: it did not
+  std::string missing_light; ///< light that no picture shows, nor the reference; see missing_light_text()
+  std::string cut_short;     ///< why memory ended the run before max_spp; empty: it did not
 };
 
 /// Runs every method with 4, 8, ... max_spp samples per pixel (adaptive ones from 32). The methods take turns, so that

@@ -205,6 +205,8 @@ PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureReques
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
   PictureMeasurement measured =
       mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });
+  measured.missing_light = missing_light_text(file, RenderMethod().strategy, own.max_depth);
+  if (!measured.missing_light.empty()) warn("{}; it is missing in the reference, too", measured.missing_light);
   if (!measured.cut_short.empty()) warn("{}: larger numbers of samples are left out", measured.cut_short);
   return measured;
 }

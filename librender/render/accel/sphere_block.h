@@ -1,37 +1,15 @@
 #pragma once
 /// Spheres as leaves of the BVH.
 
-#include <render/accel/wide_tree.h>
-#include <render/core/ray.h>
+#include <render/accel/whole_shape_block.h>
 #include <render/shape/sphere.h>
 #include <render/shape/sphere_crossings.h>
 
 namespace render {
 
 /// Eight spheres or caps, intersected in double. A block type of BlockTree.
-class SphereBlock {
+class SphereBlock : public WholeShapeBlock<Sphere> {
  public:
-  /// Kind of the shapes whose primitives are spheres.
-  using ShapeType = Sphere;
-  /// Up to this number of spheres, testing all blocks is faster than a tree.
-  static constexpr std::uint32_t max_brute_force = 24;
-
-  /// One sphere and the index of its shape.
-  struct Primitive {
-    const Sphere* sphere;
-    int shape;
-
-    /// Bounds rounded outward, so that the float box contains the double sphere.
-    Bounds bounds() const { return Bounds::around(sphere->box()); }
-  };
-  /// Number of spheres in a sphere: 1.
-  static std::size_t size(const Sphere&) { return 1; }
-  /// Writes the sphere to `to`; returns the end of the output.
-  static Primitive* collect(const Sphere& sphere, int index, std::size_t, std::size_t, Primitive* to) {
-    *to = {&sphere, index};
-    return to + 1;
-  }
-
   /// The ray in double.
   struct RaySetup : Line {
     explicit RaySetup(const Ray& ray) : Line(ray.o.cast<double>(), ray.d.cast<double>()) {}
@@ -39,7 +17,7 @@ class SphereBlock {
 
   /// Stores a sphere in a lane.
   void set(std::uint32_t lane, const Primitive& p) {
-    const Sphere& s = *p.sphere;
+    const Sphere& s = *p.geometry;
     for (int a = 0; a < 3; ++a) {
       center_[a][lane] = s.center()[a];
       axis_[a][lane] = s.axis()[a];
@@ -47,7 +25,7 @@ class SphereBlock {
     radius2_[lane] = s.radius() * s.radius();
     cap_[lane] = s.is_cap() ? s.radius() - s.height() : -mc::infinity<double>;
     caps_ |= s.is_cap();
-    shape_[lane] = p.shape;
+    set_shape(lane, p.shape);
   }
 
   /// Nearest hit with 0 < t < t_max, stored in t_max and hit; with any = true, only whether there is a hit.
@@ -66,24 +44,13 @@ class SphereBlock {
       hit0 &= start + at.t0 * along >= cap_;
       hit1 &= start + at.t1 * along >= cap_;
     }
-    unsigned hits = detail::lane_bits(hit0 | hit1);
-    if (any || hits == 0) return hits != 0;
-    const EightDoubles t = hit0 ? at.t0 : at.t1;
-    int lane = __builtin_ctz(hits);
-    while ((hits &= hits - 1) != 0) {
-      const int other = __builtin_ctz(hits);
-      if (t[other] < t[lane]) lane = other;
-    }
-    t_max = Float(t[lane]);
-    hit = {t[lane], shape_[lane], 0, 0, 0};
-    return true;
+    return nearest<any>(detail::lane_bits(hit0 | hit1), hit0 ? at.t0 : at.t1, t_max, hit);
   }
 
  private:
   EightDoubles center_[3], radius2_;
   EightDoubles axis_[3], cap_; ///< a point at `offset` from the centre belongs to the shape if offset . axis >= cap
-  int shape_[8];
-  bool caps_ = false; ///< whether some lane is a cap
+  bool caps_ = false;          ///< whether some lane is a cap
 };
 
 } // namespace render

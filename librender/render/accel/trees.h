@@ -3,6 +3,7 @@
 
 #include <render/accel/block_tree.h>
 #include <render/accel/bvh.h>
+#include <render/accel/cylinder_block.h>
 #include <render/accel/disk_block.h>
 #include <render/accel/sphere_block.h>
 #include <render/accel/triangle_block.h>
@@ -13,7 +14,7 @@
 namespace render {
 
 static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock) == 8 * sizeof(double) &&
-              alignof(DiskBlock) == 8 * sizeof(double));
+              alignof(DiskBlock) == 8 * sizeof(double) && alignof(CylinderBlock) == 8 * sizeof(double));
 
 /// One tree per block type.
 template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
@@ -32,7 +33,7 @@ template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
 };
 
 /// The trees of a Bvh, one per block type, in the order in which a ray tests them.
-struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock, DiskBlock> {
+struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock, DiskBlock, CylinderBlock> {
   /// Constructors of BlockTrees.
   using BlockTrees::BlockTrees;
 

@@ -2,6 +2,7 @@
 /// The closed set of shapes.
 
 #include <render/core/dispatch.h>
+#include <render/shape/cylinder.h>
 #include <render/shape/disk.h>
 #include <render/shape/sphere.h>
 #include <render/shape/triangle_mesh.h>
@@ -9,7 +10,7 @@
 namespace render {
 
 /// One of the shapes. Models ShapeLike, where the operations are documented.
-struct Shape : std::variant<TriangleMesh, Sphere, Disk> {
+struct Shape : std::variant<TriangleMesh, Sphere, Disk, Cylinder> {
   using variant::variant;
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const {

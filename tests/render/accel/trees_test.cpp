@@ -27,6 +27,7 @@ TEST(Trees, EveryInstructionSetGivesTheSameBits) {
     shapes.emplace_back(TriangleMesh({near(), near(), near()}, {{0, 1, 2}}));
     shapes.emplace_back(
         Disk(Transform::translate(vector(1)) * Transform::rotate(vector(1), 100) * Transform::scale({0.1, 0.05, 1})));
+    shapes.emplace_back(Cylinder(vector(1), vector(1), 0.02));
     shapes.emplace_back(Sphere(vector(1), 0.05 * random.uniform<double>() + 0.001));
   }
   std::vector<const Shape*> all;

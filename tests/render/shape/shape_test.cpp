@@ -9,7 +9,8 @@ namespace {
 
 using namespace render;
 
-static_assert(ShapeLike<Shape> && ShapeLike<Sphere> && ShapeLike<TriangleMesh> && ShapeLike<Disk>);
+static_assert(ShapeLike<Shape> && ShapeLike<Sphere> && ShapeLike<TriangleMesh> && ShapeLike<Disk> &&
+              ShapeLike<Cylinder>);
 
 TEST(Shape, AnswersAsItsMember) {
   const Sphere sphere(Vec3d(0, 0, 3), 1);
@@ -70,15 +71,19 @@ TEST(Shape, SolidAngleStaysBelowBound) {
     const double size = std::pow(10, number());
     const Transform place = Transform::translate(at) * Transform::rotate({number(), number(), 1}, 90 * number()) *
                             Transform::scale({size, size, 2 * size});
-    const Shape shapes[] = {Sphere(at, size), Sphere::cap(at, size, Vec3d(number(), number(), 1), size / 3),
-                            TriangleMesh::rectangle(place), TriangleMesh::box(place), Disk(place)};
-    const Shape& shape = shapes[trial % 5];
+    const Shape shapes[] = {Sphere(at, size),
+                            Sphere::cap(at, size, Vec3d(number(), number(), 1), size / 3),
+                            TriangleMesh::rectangle(place),
+                            TriangleMesh::box(place),
+                            Disk(place),
+                            Cylinder(at, place.point(Vec3d::UnitZ()), size)};
+    const Shape& shape = shapes[trial % 6];
     const Vec3 ref = Vec3d(number(), number(), number()).cast<Float>(), n = (at.cast<Float>() - ref).normalized();
     mc::Moments filled;
     for (std::uint64_t i = 0; i < 200; ++i) {
       const auto s = shape.sample(ref, {random.uniform<Float>(), random.uniform<Float>()});
-      // Half of the sides of a box are visible; the others lie behind them.
-      const double shares = trial % 5 == 3 ? 0.5 : 1;
+      // Half of the sides of a box, and of a cylinder without its ends, are visible; the others lie behind them.
+      const double shares = trial % 6 == 3 || trial % 6 == 5 ? 0.5 : 1;
       const double outside = s ? shape.box().exteriorDistance(s->point.p.cast<double>()) : 0;
       EXPECT_LE(outside, s ? 2 * double(s->point.error) : 0) << trial;
       filled.add(s ? shares * double(std::max(Float(0), s->wi.dot(n)) / s->pdf) : 0.0, i);

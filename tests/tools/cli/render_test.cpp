@@ -344,6 +344,13 @@ TEST_F(RenderCommand, SunThroughGlass_IsMissedWithAWarning) {
   EXPECT_THAT(render::read_image(path("out.exr")).metadata.at("carlo.missing_light"), HasSubstr(words));
   EXPECT_THAT(warned(""), HasSubstr(words + " where it is seen in a mirror or through glass"));
   EXPECT_THAT(warned(" --strategy mis --max-depth 2"), Not(HasSubstr("missing")));
+  for (const std::string command : {"converge", "trade"}) {
+    const auto run =
+        run_carlo(command + " " + scene + " --strategies mis+lt --size 4x4 --max-spp 32 -o " + path("measured"));
+    EXPECT_THAT(run.output, AllOf(HasSubstr(words), HasSubstr("it is missing in the reference, too")));
+    EXPECT_THAT(mc::read_file(path(command == "trade" ? "measured/trade.json" : "measured/slab.json")),
+                HasSubstr("\"missing_light\": \"light of the directional 'sun'"));
+  }
   // Through a filter this wide, light paths do not pay.
   std::string wide = mc::read_file(scene);
   wide.replace(wide.find("</sensor>"), 0, R"(<film type="hdrfilm"><rfilter type="box"><float name="radius" value="99"/>

@@ -67,7 +67,6 @@ constexpr auto reasons = std::to_array<Reason>({
     {"emitter", "sky", no_sky_model},
     {"emitter", "sun", "use directional"},
     {"emitter", "sunsky", no_sky_model},
-    {"shape", "cylinder", tessellate},
     {"shape", "heightfield", tessellate},
     {"shape", "sdfgrid", tessellate},
     {"shape", "ellipsoids", tessellate},

@@ -66,6 +66,22 @@ Shape make_rectangle(const Transform& to_world, bool flip) {
 
 Shape make_disk(const Transform& to_world, bool flip) { return Disk(to_world, flip); }
 
+// The factor by which toWorld scales. Throws Error for a shape that must stay round and would not.
+double uniform_scale(const Transform& to_world, const char* shape) {
+  mc::require((to_world.linear.colwise().lpNorm<Eigen::Infinity>().array() > 0).all(),
+              "toWorld flattens the {0}, or makes a point of it; nothing would be seen", shape);
+  const double scale = to_world.linear.col(0).stableNorm();
+  const Eigen::Matrix3d turn = to_world.linear / scale;
+  mc::require((turn.transpose() * turn).isApprox(Eigen::Matrix3d::Identity(), 1e-9),
+              "toWorld of a {} must scale all axes alike", shape);
+  return scale;
+}
+
+Shape make_cylinder(const Transform& to_world, const Vec3d& from, const Vec3d& to, double radius, bool flip) {
+  const double scale = uniform_scale(to_world, "cylinder");
+  return Cylinder(to_world.point(from), to_world.point(to), scale * radius, flip);
+}
+
 Shape make_cube(const Transform& to_world) {
   mc::require(to_world.linear.determinant() != 0, "toWorld flattens the cube; use a rectangle for what is flat");
   return TriangleMesh::box(to_world);
@@ -79,12 +95,8 @@ struct Center {
 
 Shape make_sphere(const Transform& to_world, const Center& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
-  mc::require((to_world.linear.colwise().lpNorm<Eigen::Infinity>().array() > 0).all(),
-              "toWorld flattens the sphere, or makes a point of it; nothing would be seen");
-  const double scale = to_world.linear.col(0).stableNorm();
+  const double scale = uniform_scale(to_world, "sphere");
   const Eigen::Matrix3d turn = to_world.linear / scale;
-  mc::require((turn.transpose() * turn).isApprox(Eigen::Matrix3d::Identity(), 1e-9),
-              "toWorld of a sphere must scale all axes alike");
   mc::require(cap_axis.has_value() == cap_height.has_value(),
               "capAxis and capHeight belong together; give both or none");
   const Vec3d at = to_world.point(center.is_scaled ? center.at : Vec3d(center.at / scale));
@@ -221,6 +233,11 @@ const Plugins<ShapeDescription>& shape_plugins() {
                    boolean("flipNormals", "whether the normal is -z")),
       shape_plugin("disk", "the unit disk in the plane z = 0, normal +z; toWorld may make an ellipse of it", make_disk,
                    to_world(), boolean("flipNormals", "whether the normal is -z")),
+      shape_plugin("cylinder", "the wall of a circular cylinder, without its ends, normal outward", make_cylinder,
+                   to_world(), point("p0", "centre of one end", Vec3d::Zero()),
+                   point("p1", "centre of the other end", Vec3d::UnitZ()),
+                   number("radius", scene_units, 1, "its radius, > 0"),
+                   boolean("flipNormals", "whether the normals point inward")),
       shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(
           "sphere", "a sphere, or the cap of one", make_sphere, to_world_of_sphere(), center(),
