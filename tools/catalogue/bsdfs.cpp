@@ -58,7 +58,7 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughDielectric", fmt::format("BeckmannFacets, alpha={}", alpha),
              render::RoughDielectric<render::BeckmannFacets>(render::Float(1.5), render::Float(alpha)),
              {0, 60, grazing(alpha), 120, 150}, {.eta = 1.5});
-    add_bsdf(c, "RoughPlastic", fmt::format("BeckmannFacets, alpha={}", alpha),
+    add_bsdf(c, "RoughPlastic", fmt::format("LayeredBase, BeckmannFacets, alpha={}", alpha),
              render::RoughPlastic<render::LayeredBase, render::BeckmannFacets>(render::Float(1.49),
                                                                                render::Float(alpha), paint, one),
              {0, 60, grazing(alpha), 120});

@@ -191,6 +191,8 @@ PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureReques
   warn_about_scene_file(file);
   warn_if_imprecise(run.path, file.scene);
   const render::RenderDefaults& own = file.defaults;
+  const std::string missing = missing_light_text(file, RenderMethod().strategy, own.max_depth);
+  if (!missing.empty()) warn("{}; it is missing in the reference, too", missing);
   PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};
   if (!o.size.empty()) std::tie(p.width, p.height) = parse_size(o.size);
   p.replicates = run.pictures;
@@ -205,8 +207,7 @@ PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureReques
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
   PictureMeasurement measured =
       mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });
-  measured.missing_light = missing_light_text(file, RenderMethod().strategy, own.max_depth);
-  if (!measured.missing_light.empty()) warn("{}; it is missing in the reference, too", measured.missing_light);
+  measured.missing_light = missing;
   if (!measured.cut_short.empty()) warn("{}: larger numbers of samples are left out", measured.cut_short);
   return measured;
 }

@@ -50,13 +50,15 @@ std::set<std::string> members_of(const fs::path& header) {
   const std::string names = list[1].str();
   static const std::regex whole_name(R"(\w+(<[^<>]*>)?)");
   for (auto it = std::sregex_iterator(names.begin(), names.end(), whole_name); it != std::sregex_iterator(); ++it)
-    types.insert(it->str());
+    types.insert(it->str().ends_with("<>") ? it->str().substr(0, it->length() - 2) : it->str());
   return types;
 }
 
-// Names of a case in a closed set: its own name, or the template name with the start of its parameters.
+// Names of a case in a closed set: its own name, or the template name with the first parameters of the case.
 std::set<std::string> names_of(const carlo::Case& c) {
-  return {c.name, c.name + "<" + c.parameters.substr(0, c.parameters.find(',')) + ">"};
+  const std::size_t first = c.parameters.find(','), second = c.parameters.find(',', first + 1);
+  return {c.name, c.name + "<" + c.parameters.substr(0, first) + ">",
+          c.name + "<" + c.parameters.substr(0, second) + ">"};
 }
 
 TEST(Catalogue, EveryDistribution_IsListed) {

@@ -20,20 +20,6 @@ TEST_F(SceneContext, ReferencesMayStandBeforeWhatTheyName) {
   EXPECT_EQ(surfaces[2].bsdf, surfaces[3].bsdf) << "the default too";
 }
 
-TEST_F(SceneContext, WarnsWhereMitsubaWouldHaveItOtherwise) {
-  const std::string body =
-      std::string(sensor) + R"(<shape type="cube"><ref id="p"/></shape> <shape type="cube"><ref id="p"/></shape>)";
-  const auto warnings = [&](const std::string& parameters, render::Dialect dialect) {
-    return render::read_mitsuba(scene(body + "\n<bsdf type=\"roughplastic\" id=\"p\">" + parameters + "</bsdf>"),
-                                dialect)
-        .warnings;
-  };
-  using enum render::Dialect;
-  EXPECT_THAT(warnings("", mitsuba), testing::ElementsAre(HasSubstr("s.xml:3: <bsdf>: facets are ggx's"))) << "once";
-  EXPECT_THAT(warnings(R"(<string name="distribution" value="ggx"/>)", mitsuba), testing::IsEmpty());
-  EXPECT_THAT(warnings("", lajolla), testing::IsEmpty());
-}
-
 TEST_F(SceneContext, SpectraOfWhatReflectsAreSeenInTheLightOfTheVersion) {
   const auto said = [&](const std::string& version, render::Dialect dialect) {
     const std::string file = write("v.xml", "<scene version=\"" + version + "\">" + sensor + R"(<shape type="cube"><bsdf

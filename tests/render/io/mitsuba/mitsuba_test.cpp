@@ -250,12 +250,20 @@ TEST_F(Mitsuba, ThePaintIsTheDialects) {
                                    parameters + "</bsdf></shape>"),
                              render::dialect_from(dialect));
     const render::Bsdf& paint = read.scene.bsdf(read.scene.surfaces()[0]);
-    if (std::holds_alternative<render::RoughPlastic<render::LayeredBase>>(paint)) return "layered";
+    if (std::holds_alternative<render::RoughPlastic<render::LayeredBase>>(paint)) return "layered, ggx";
+    if (std::holds_alternative<render::RoughPlastic<render::LayeredBase, render::BeckmannFacets>>(paint))
+      return "layered";
     return std::holds_alternative<render::RoughPlastic<render::LajollaBase>>(paint) ? "lajolla" : "none";
   };
   EXPECT_STREQ(base_of("", "mitsuba"), "layered");
   EXPECT_STREQ(base_of("", "lajolla"), "lajolla");
   EXPECT_STREQ(base_of("<string name=\"base\" value=\"lajolla\"/>", "mitsuba"), "lajolla");
+  EXPECT_STREQ(base_of("<string name=\"distribution\" value=\"ggx\"/>", "mitsuba"), "layered, ggx");
+  EXPECT_THAT(support::error_of([&] {
+                base_of(R"(<string name="base" value="lajolla"/><string name="distribution" value="beckmann"/>)",
+                        "mitsuba");
+              }),
+              testing::HasSubstr("beckmann needs the base layered"));
 }
 
 TEST_F(Mitsuba, DefaultsAreTheDialects) {

@@ -108,8 +108,9 @@ Material plastic_over(Float eta, double alpha, FacetShape facets, const Reflecta
 }
 
 Material make_roughplastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                           FacetShape facets, const Reflectance& diffuse, const Reflectance& specular, bool nonlinear,
-                           std::size_t base) {
+                           const std::optional<FacetShape>& given_facets, const Reflectance& diffuse,
+                           const Reflectance& specular, bool nonlinear, std::size_t base) {
+  const FacetShape facets = given_facets.value_or(base == 1 ? FacetShape::ggx : FacetShape::beckmann);
   const Float eta = relative_index(inside, outside);
   const double alpha = alpha_of(slope, roughness);
   mc::require(!nonlinear || base != 1, "nonlinear needs the base layered; that of lajolla ignores the coat");
@@ -138,10 +139,11 @@ Bsdf make_dielectric(double inside, double outside, const Slope& slope, const st
 }
 
 Bsdf make_roughdielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                          const std::optional<double>& alpha_u, const std::optional<double>& alpha_v, FacetShape facets,
-                          const Spectrum& reflectance, const Spectrum& transmittance) {
-  return glass(relative_index(inside, outside), alpha_of(isotropic(slope, alpha_u, alpha_v), roughness), facets,
-               reflectance, transmittance);
+                          const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
+                          const std::optional<FacetShape>& facets, const Spectrum& reflectance,
+                          const Spectrum& transmittance) {
+  return glass(relative_index(inside, outside), alpha_of(isotropic(slope, alpha_u, alpha_v), roughness),
+               facets.value_or(FacetShape::beckmann), reflectance, transmittance);
 }
 
 Bsdf make_thindielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
@@ -156,11 +158,12 @@ Material make_twosided(Material inner) {
 Material make_roughconductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
                              const std::optional<Spectrum>& k, double outside, const Slope& slope,
                              const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
-                             FacetShape facets, const Spectrum& reflectance) {
+                             const std::optional<FacetShape>& given_facets, const Spectrum& reflectance) {
   // F is 1 at every angle for eta = 0.
   const OpticalConstants metal =
       constants_of({material, eta, k}, outside).value_or(OpticalConstants{Spectrum::Zero(), Spectrum::Ones()});
   const auto alpha = Float(isotropic(slope, alpha_u, alpha_v).alpha);
+  const FacetShape facets = given_facets.value_or(FacetShape::beckmann);
   if (alpha == 0) return one_sided(Bsdf(SmoothConductor(metal.eta, metal.k, reflectance)));
   if (facets == FacetShape::beckmann)
     return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, BeckmannFacets(alpha), reflectance)));
@@ -236,14 +239,15 @@ Parameter<std::optional<Spectrum>> k_of_metal() {
   return optional(color("k", "", "extinction coefficient, >= 0; not 0 where eta is"));
 }
 
-Parameter<FacetShape> distribution(const std::vector<std::string>& names) {
-  const Parameter<std::size_t> index = choice("distribution", names, "of the facets' normals", 0);
-  const Parameter<FacetShape> p{
+Parameter<std::optional<FacetShape>> distribution(const std::vector<std::string>& names) {
+  const Parameter<std::size_t> index =
+      choice("distribution", names, "of the facets' normals; of lajolla's base only ggx");
+  const Parameter<std::optional<FacetShape>> p{
       index.declared,
       [index](const XmlElement& e, Context& context) { return static_cast<FacetShape>(index.parse(e, context)); },
       {},
       {}};
-  return p.with_default(FacetShape::beckmann, "beckmann").with_lajolla_default(FacetShape::ggx, "ggx");
+  return p.with_default(std::nullopt, "beckmann").with_lajolla_default(FacetShape::ggx, "ggx");
 }
 
 Parameter<std::size_t> base() {

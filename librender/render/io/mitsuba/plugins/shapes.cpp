@@ -66,20 +66,21 @@ Shape make_rectangle(const Transform& to_world, bool flip) {
 
 Shape make_disk(const Transform& to_world, bool flip) { return Disk(to_world, flip); }
 
-// The factor by which toWorld scales. Throws Error for a shape that must stay round and would not.
-double uniform_scale(const Transform& to_world, const char* shape) {
-  mc::require((to_world.linear.colwise().lpNorm<Eigen::Infinity>().array() > 0).all(),
-              "toWorld flattens the {0}, or makes a point of it; nothing would be seen", shape);
-  const double scale = to_world.linear.col(0).stableNorm();
-  const Eigen::Matrix3d turn = to_world.linear / scale;
-  mc::require((turn.transpose() * turn).isApprox(Eigen::Matrix3d::Identity(), 1e-9),
-              "toWorld of a {} must scale all axes alike", shape);
-  return scale;
-}
-
+// toWorld may stretch a cylinder along its axis.
 Shape make_cylinder(const Transform& to_world, const Vec3d& from, const Vec3d& to, double radius, bool flip) {
-  const double scale = uniform_scale(to_world, "cylinder");
-  return Cylinder(to_world.point(from), to_world.point(to), scale * radius, flip);
+  mc::require(from != to, "p0 and p1 must differ; both are ({}, {}, {})", from.x(), from.y(), from.z());
+  const auto local = mc::Frame<double>::from_z((to - from).normalized());
+  Eigen::Matrix3d axes;
+  axes << to_world.vector(local.x), to_world.vector(local.y), to_world.vector(local.z);
+  const Eigen::RowVector3d length = axes.colwise().norm();
+  mc::require((length.array() > 0).all(),
+              "toWorld flattens the cylinder, or makes a line of it; nothing would be seen");
+  const Eigen::Matrix3d unit = axes.array().rowwise() / length.array();
+  mc::require((unit.transpose() * unit).isApprox(Eigen::Matrix3d::Identity(), 1e-9) &&
+                  std::abs(length[0] - length[1]) <= 1e-9 * length[0],
+              "toWorld of a cylinder must keep it round and straight: it may turn, move and scale it, and stretch it "
+              "along its axis");
+  return Cylinder(to_world.point(from), to_world.point(to), length[0] * radius, flip);
 }
 
 Shape make_cube(const Transform& to_world) {
@@ -95,8 +96,12 @@ struct Center {
 
 Shape make_sphere(const Transform& to_world, const Center& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
-  const double scale = uniform_scale(to_world, "sphere");
+  mc::require((to_world.linear.colwise().lpNorm<Eigen::Infinity>().array() > 0).all(),
+              "toWorld flattens the sphere, or makes a point of it; nothing would be seen");
+  const double scale = to_world.linear.col(0).stableNorm();
   const Eigen::Matrix3d turn = to_world.linear / scale;
+  mc::require((turn.transpose() * turn).isApprox(Eigen::Matrix3d::Identity(), 1e-9),
+              "toWorld of a sphere must scale all axes alike");
   mc::require(cap_axis.has_value() == cap_height.has_value(),
               "capAxis and capHeight belong together; give both or none");
   const Vec3d at = to_world.point(center.is_scaled ? center.at : Vec3d(center.at / scale));

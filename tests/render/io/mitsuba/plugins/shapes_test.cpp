@@ -48,6 +48,30 @@ TEST_F(ShapePlugins, ASphereIsNotFlattened) {
   EXPECT_NO_THROW(shape("sphere", "<transform name=\"toWorld\"><scale value=\"1e-15\"/></transform>"));
 }
 
+TEST_F(ShapePlugins, ACylinderStaysRound) {
+  const std::string ends = R"(<point name="p0" x="1" y="0" z="0"/><point name="p1" x="1" y="2" z="0"/>)";
+  const auto cylinder = [&](const std::string& parameters) {
+    return std::get<render::Cylinder>(*shape("cylinder", parameters).scene.surfaces()[0].shape);
+  };
+  const std::string stretched = R"(<float name="radius" value="0.5"/>
+<transform name="toWorld"><scale x="3" y="4" z="3"/><rotate x="1" angle="90"/><translate x="1"/></transform>)";
+  EXPECT_NEAR(cylinder(ends + stretched).radius(), 1.5, 1e-12);
+  EXPECT_NEAR(cylinder(ends + stretched).height(), 8, 1e-12);
+  EXPECT_LE((cylinder(ends + stretched).base() - render::Vec3d(4, 0, 0)).norm(), 1e-12);
+  EXPECT_LE((cylinder("").frame().z - render::Vec3d::UnitZ()).norm(), 1e-12) << "the unit cylinder of Mitsuba";
+  const auto refusal = [&](const std::string& parameters) {
+    return support::error_of([&] { shape("cylinder", parameters); });
+  };
+  EXPECT_THAT(refusal(R"(<transform name="toWorld"><scale x="2"/></transform>)"),
+              testing::HasSubstr("shape.xml:2: <shape>: toWorld of a cylinder must keep it round and straight"));
+  EXPECT_THAT(refusal(R"(<transform name="toWorld"><matrix value="1 0 1 0 0 1 0 0 0 0 1 0 0 0 0 1"/></transform>)"),
+              testing::HasSubstr("toWorld of a cylinder must keep it round and straight"));
+  EXPECT_THAT(refusal(R"(<transform name="toWorld"><scale value="0"/></transform>)"),
+              testing::HasSubstr("toWorld flattens the cylinder"));
+  EXPECT_THAT(refusal(R"(<point name="p1" x="0" y="0" z="0"/>)"), testing::HasSubstr("p0 and p1 must differ"));
+  EXPECT_THAT(refusal(R"(<float name="radius" value="0"/>)"), testing::HasSubstr("cylinder: radius 0 must be > 0"));
+}
+
 TEST_F(ShapePlugins, ARectangleShinesFromTheOtherSideWhenItsNormalIsFlipped) {
   const std::string mirrored = R"(<transform name="toWorld"><scale x="-1" y="2"/></transform>)";
   for (const std::string& to_world : {std::string(), mirrored})
