@@ -89,7 +89,7 @@ void PartRun::compute_missing(const AnyJob& job, const RunOptions& options, cons
   std::vector<std::size_t> missing;
   for (std::size_t unit = 0; unit < units; ++unit)
     if (const Key key(name, stage, unit); claims(key, claim) && !find(key)) missing.push_back(unit);
-  UnitList list{missing, options.cancel, [&](std::size_t unit, AnyResult result) {
+  UnitList list{missing, options.cancel, [&](std::size_t unit, const AnyResult& result) {
                   if (!result) return;
                   ArchiveWriter writer;
                   job.write_result(writer, result);

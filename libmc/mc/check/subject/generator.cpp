@@ -45,7 +45,7 @@ void set_draws(const AnyGenerator& g, std::function<Subject::Draw(double x)> to_
 
 } // namespace
 
-Subject subject_of_pdf(const AnyGenerator& g, std::function<double(double)> pdf) {
+Subject subject_of_pdf(const AnyGenerator& g, const std::function<double(double)>& pdf) {
   AnyDistribution d;
   d.name = g.name;
   d.is_float = g.is_float;
@@ -74,7 +74,8 @@ Subject subject_of_pmf(const AnyGenerator& g, const std::function<double(double)
   if (!(g.hi - g.lo < most_without_pilot)) outcomes.list(g.draw(pilot_seed, 1 << 16));
   Subject s;
   s.name = g.name;
-  for (double k = outcomes.first; k <= outcomes.last; ++k) s.atoms.push_back(pmf(k));
+  for (std::size_t i = 0; outcomes.first + static_cast<double>(i) <= outcomes.last; ++i)
+    s.atoms.push_back(pmf(outcomes.first + static_cast<double>(i)));
   outcomes.add_rest(s.atoms);
   const auto to_draw = [outcomes](double k) {
     Subject::Draw drawn;

@@ -43,8 +43,8 @@ template <class F> struct ClaimedCdf {
 
 namespace detail {
 
-template <class T> constexpr bool is_cdf = false;
-template <class F> constexpr bool is_cdf<ClaimedCdf<F>> = true;
+template <class T> inline constexpr bool is_cdf = false;
+template <class F> inline constexpr bool is_cdf<ClaimedCdf<F>> = true;
 
 /// Draws the numbers of one stream, with one generator, so that numbers that it keeps for the next call count too.
 using DrawNumbers = std::function<std::vector<double>(std::uint64_t seed, std::size_t n)>;
@@ -58,7 +58,7 @@ struct AnyGenerator {
 };
 
 /// Returns the subject of a density, of probabilities of integers, or of a cumulative distribution function.
-Subject subject_of_pdf(const AnyGenerator& generator, std::function<double(double x)> pdf);
+Subject subject_of_pdf(const AnyGenerator& generator, const std::function<double(double x)>& pdf);
 Subject subject_of_pmf(const AnyGenerator& generator, const std::function<double(double k)>& pmf);
 Subject subject_of_cdf(const AnyGenerator& generator, std::function<double(double x)> cdf);
 
