@@ -47,7 +47,7 @@ class RandomScene {
                           .radius = !is_parallel && chance(0.4) ? 0.2 : 0,
                           .focus_distance = 4,
                           .near = chance(0.4) ? 2.5 : 0,
-                          .parallel_width = is_parallel ? 1 + number() : 0}));
+                          .half_width = is_parallel ? 1 + number() : 0}));
     return builder.build();
   }
 

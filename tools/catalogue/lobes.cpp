@@ -73,7 +73,7 @@ void add_lobes(Catalogue& c) {
                  using S = decltype(s);
                  return mc::BeckmannVisibleNormals<S>(direction<S>(degrees), S(alpha), S(0.3 * alpha));
                },
-               {.invert_eps = 64, .sample_eps = 64});
+               {.invert_eps = 8, .sample_eps = 64});
     for (const double degrees : {0.0, 60.0, 89.9})
       add_warp(c, "TrowbridgeReitzVisibleNormals", fmt::format("alpha={:g}, {:g} degrees", alpha, degrees),
                [alpha, degrees](auto s) {

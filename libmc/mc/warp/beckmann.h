@@ -63,9 +63,9 @@ template <Real S> class BeckmannNormals {
 ///   sample : slopes in the frame that is stretched by alpha and turned so that wo = (sin, 0, cos). The slope x toward
 ///            wo has the density (cos + x sin) exp(-x^2) / (sqrt(pi) c) for x > -cot, and the one across is normal. x
 ///            solves P(X > x) = u1 by Newton's method on the logarithm. The logarithm is concave, so the method
-///            converges from any start.
+///            converges from any start. u = 0 is replaced by half a step of u, so slopes are finite.
 ///   pdf    : D(m) wo.m / sigma(wo) [1/sr]; 0 below the horizon. Relative error as for BeckmannNormals.
-///   invert : |invert(sample(u)) - u| <= 16 eps max(1, ratio of the roughnesses).
+///   invert : |invert(sample(u)) - u| <= 8 eps.
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3] and wo is a unit vector with wo_z >= 0.
 ///   Source : the distribution of visible slopes from [Heitz14].
 template <Real S> class BeckmannVisibleNormals {
@@ -152,7 +152,7 @@ template <Real S> class BeckmannVisibleNormals {
     const S normal = S(log(S((1 - u / 2) / u))) * S(0.42); // near the solution for sin = 0
     S x = grazing + cos_ * (normal - grazing);
     if (!(x > least)) x = (least + grazing) / 2;
-    for (int step = 0; step < 200; ++step) {
+    for (int step = 0; step < 200; ++step) { // the last steps may alternate by rounding
       const S above = tail(x), density = (cos_ + x * sin_) * S(exp(S(-x * x))) / S(sqrt(pi<S>));
       const S change = S(log(S(above / wanted))) * above / density;
       S next = x + change;

@@ -10,14 +10,6 @@ namespace render {
 /// Eight cylinders, intersected in double. A block type of BlockTree.
 class CylinderBlock : public WholeShapeBlock<Cylinder> {
  public:
-  /// The ray in double.
-  struct RaySetup {
-    Vec3d o, ///< Origin.
-        d;   ///< Direction.
-    /// Converts the ray.
-    explicit RaySetup(const Ray& ray) : o(ray.o.cast<double>()), d(ray.d.cast<double>()) {}
-  };
-
   /// Stores a cylinder in a lane.
   void set(std::uint32_t lane, const Primitive& p) {
     const Cylinder& c = *p.geometry;

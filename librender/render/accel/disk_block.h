@@ -9,14 +9,6 @@ namespace render {
 /// Eight disks, intersected in double. A block type of BlockTree.
 class DiskBlock : public WholeShapeBlock<Disk> {
  public:
-  /// The ray in double.
-  struct RaySetup {
-    Vec3d o, ///< Origin.
-        d;   ///< Direction.
-    /// Converts the ray.
-    explicit RaySetup(const Ray& ray) : o(ray.o.cast<double>()), d(ray.d.cast<double>()) {}
-  };
-
   /// Stores a disk in a lane.
   void set(std::uint32_t lane, const Primitive& p) {
     const DiskPlane& plane = p.geometry->plane();

@@ -35,6 +35,14 @@ template <class S> class WholeShapeBlock {
     return to + 1;
   }
 
+  /// The ray in double.
+  struct RaySetup {
+    Vec3d o, ///< Origin.
+        d;   ///< Direction.
+    /// Converts the ray.
+    explicit RaySetup(const Ray& ray) : o(ray.o.cast<double>()), d(ray.d.cast<double>()) {}
+  };
+
  protected:
   /// Stores the index of the shape of a lane.
   void set_shape(std::uint32_t lane, int shape) { shape_[lane] = shape; }

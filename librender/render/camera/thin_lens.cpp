@@ -11,9 +11,8 @@ constexpr double most_skewed = 1e-4; // relative tolerance; files contain frames
 } // namespace
 
 ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
-    : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis),
-      is_parallel_(options.parallel_width > 0),
-      tan_half_fov_(Float(is_parallel_ ? options.parallel_width : std::tan(options.fov * mc::pi<double> / 360))),
+    : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis), is_parallel_(options.half_width > 0),
+      half_size_(Float(is_parallel_ ? options.half_width : std::tan(options.fov * mc::pi<double> / 360))),
       radius_(Float(options.radius)), focus_distance_(Float(options.focus_distance)), near_(Float(options.near)),
       depth_(Float(options.far - options.near)) {
   const auto& axes = to_world.linear;
@@ -31,8 +30,8 @@ ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
   mc::require(options.fov > 0 && options.fov < 180, "camera: fov {} must lie in (0, 180) degrees", options.fov);
   mc::require(options.radius >= 0 && std::isfinite(options.radius), "camera: apertureRadius {} must be finite and >= 0",
               options.radius);
-  mc::require(options.parallel_width >= 0 && std::isfinite(options.parallel_width),
-              "camera: the width of parallel rays {} must be finite and >= 0", options.parallel_width);
+  mc::require(options.half_width >= 0 && std::isfinite(options.half_width),
+              "camera: the width of parallel rays {} must be finite and >= 0", options.half_width);
   mc::require(!is_parallel_ || radius_ == 0, "camera: parallel rays pass no lens; leave out the apertureRadius");
   mc::require(options.focus_distance > 0 && std::isfinite(options.focus_distance),
               "camera: focusDistance {} must be finite and > 0", options.focus_distance);

@@ -27,7 +27,7 @@ struct LensOptions {
   double focus_distance = 1;         ///< Distance of the plane in focus [scene units].
   double near = 0;                   ///< Distance of the near plane [scene units]; nearer objects are invisible.
   double far = mc::infinity<double>; ///< Distance of the far plane [scene units]; farther objects are invisible.
-  double parallel_width = 0;         ///< Half the width of the film, for parallel rays [scene units]; 0: a lens.
+  double half_width = 0;             ///< Half the width of the film, for parallel rays [scene units]; 0: a lens.
 };
 
 /// Connection of a scene point to a point of the lens.
@@ -39,12 +39,12 @@ struct CameraWiSample {
   Float direction_pdf; ///< See ThinLens::direction_pdf().
 };
 
-/// A thin lens that is focused on a plane; with radius 0 a pinhole; with parallel_width an orthographic projection,
+/// A thin lens that is focused on a plane; with radius 0 a pinhole; with half_width an orthographic projection,
 /// which has no lens: its film points lie in the plane of the frame.
 ///   to_world : camera frame with x to the left, y up and z forward. The common length of the axes does not matter.
 ///   throws   : Error unless the frame is finite, with axes that are not 0, of equal length and orthogonal up to 1e-4.
-///              Error unless 0 < fov < 180, radius, parallel_width and near are finite and >= 0, focus_distance is
-///              finite and > 0, and far > near. Error for a radius and a parallel_width.
+///              Error unless 0 < fov < 180, radius, half_width and near are finite and >= 0, focus_distance is
+///              finite and > 0, and far > near. Error for a radius and a half_width.
 class ThinLens {
  public:
   /// A camera in a frame.
@@ -68,11 +68,11 @@ class ThinLens {
   /// Tangents of half the horizontal and half the vertical field of view; for parallel rays half the width and half the
   /// height of the film [scene units]. `aspect` is width / height of the film.
   Vec2 tan_half(Float aspect) const {
-    if (is_parallel_) return {tan_half_fov_, tan_half_fov_ / aspect};
-    if (fov_axis_ == FovAxis::diagonal) return Vec2(aspect, 1) * (tan_half_fov_ / std::hypot(aspect, Float(1)));
+    if (is_parallel_) return {half_size_, half_size_ / aspect};
+    if (fov_axis_ == FovAxis::diagonal) return Vec2(aspect, 1) * (half_size_ / std::hypot(aspect, Float(1)));
     const bool along_x = fov_axis_ == FovAxis::x || (fov_axis_ == FovAxis::smaller && aspect < 1) ||
                          (fov_axis_ == FovAxis::larger && aspect >= 1);
-    return along_x ? Vec2(tan_half_fov_, tan_half_fov_ / aspect) : Vec2(tan_half_fov_ * aspect, tan_half_fov_);
+    return along_x ? Vec2(half_size_, half_size_ / aspect) : Vec2(half_size_ * aspect, half_size_);
   }
 
   /// Camera ray through the film point s in [0,1]^2, with (0,0) in the top left corner. u in [0,1)^2 selects the point
@@ -133,7 +133,8 @@ class ThinLens {
   Vec3 origin_, right_, up_, forward_; ///< Centre of the lens, and orthonormal axes.
   FovAxis fov_axis_;
   bool is_parallel_;
-  Float tan_half_fov_, radius_, focus_distance_, near_, depth_;
+  Float half_size_; ///< Tangent of half the field of view, or half the width of parallel rays.
+  Float radius_, focus_distance_, near_, depth_;
 };
 
 } // namespace render

@@ -31,7 +31,7 @@ TEST(ThinLens, PinholeSpansItsFieldOfView) {
 
 // sample_wi() of a point on a ray returns the ray's film point, and the density of its place is 1 over the film's area.
 TEST(ThinLens, ParallelRaysSpanTheFilm) {
-  const ThinLens camera = facing({.near = 0.5, .far = 9, .parallel_width = 3}, Vec3d(1, 2, 3));
+  const ThinLens camera = facing({.near = 0.5, .far = 9, .half_width = 3}, Vec3d(1, 2, 3));
   const Vec2 half = camera.tan_half(Float(1.5));
   EXPECT_LE((half - Vec2(3, 2)).norm(), 1e-6);
   EXPECT_LE((camera.ray(Vec2(0, 0), half, Vec2::Zero()).o - Vec3(-2, 4, Float(2.5))).norm(), 1e-6);
@@ -51,8 +51,8 @@ TEST(ThinLens, ParallelRaysSpanTheFilm) {
     EXPECT_EQ(camera.spread(double(seen->distance)), 1);
   }
   EXPECT_FALSE(camera.sample_wi(Vec3(1, 2, Float(2.6)), half, Vec2::Zero()));
-  EXPECT_THROW(facing({.radius = 1, .parallel_width = 1}), mc::Error);
-  EXPECT_THROW(facing({.parallel_width = -1}), mc::Error);
+  EXPECT_THROW(facing({.radius = 1, .half_width = 1}), mc::Error);
+  EXPECT_THROW(facing({.half_width = -1}), mc::Error);
 }
 
 TEST(ThinLens, TheFieldOfViewHasAnAxis) {

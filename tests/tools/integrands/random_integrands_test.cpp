@@ -54,8 +54,8 @@ TEST(RandomIntegrands, PartlySampledNeedlesHaveNoErrorBar) {
       missed += r.interval.lo > e.truth || e.truth > r.interval.hi;
     }
     EXPECT_GE(known, 8) << name(method);
-    EXPECT_LE(off, 1) << name(method);
-    EXPECT_LE(missed, 0.1 * known + 2) << name(method) << " of " << known;
+    EXPECT_EQ(off, 0) << name(method);
+    EXPECT_LE(missed, 0.1 * known + 1) << name(method) << " of " << known;
   }
 }
 

@@ -45,8 +45,8 @@ SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t 
 // has no meaning.
 SensorSettings make_orthographic(Transform to_world, double near, double far, const FilmSettings& film, int spp) {
   LensOptions lens;
-  lens.parallel_width = to_world.linear.col(0).norm();
-  to_world.linear.col(2) = to_world.linear.col(2).normalized() * lens.parallel_width;
+  lens.half_width = to_world.linear.col(0).norm();
+  to_world.linear.col(2) = to_world.linear.col(2).normalized() * lens.half_width;
   lens.near = near;
   lens.far = far;
   return {ThinLens(to_world, lens), film, spp};
