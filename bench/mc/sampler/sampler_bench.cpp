@@ -5,6 +5,7 @@
 #include <mc/sampler/lattice.h>
 #include <mc/sampler/multi_jittered.h>
 #include <mc/sampler/padded_sobol.h>
+#include <mc/sampler/padded_sobol_4d.h>
 #include <mc/sampler/sobol.h>
 #include <mc/sampler/stratified.h>
 
@@ -35,6 +36,25 @@ void multi_jittered(benchmark::State& state) { points(state, 0, pair_of(mc::Mult
 BENCHMARK(multi_jittered)->Name("multi-jittered 2-D");
 void halton(benchmark::State& state) { points(state, 0, pair_of(mc::Halton(1))); }
 BENCHMARK(halton)->Name("Halton dims 2 and 3, Owen");
+template <class S> void padded_4d(benchmark::State& state) {
+  std::uint32_t i = 0;
+  const mc::PaddedSobol4D sampler(1);
+  for ([[maybe_unused]] const auto _ : state)
+    benchmark::DoNotOptimize(mc::point<S, 4>(sampler, (i += 40503) & 0xffff, 4));
+  bench::set_counters(state, 4, 6);
+}
+BENCHMARK(padded_4d<float>)->Name("Sobol 4-D, padded, a number, float");
+BENCHMARK(padded_4d<double>)->Name("Sobol 4-D, padded, a number, double");
+void halton_numbers(benchmark::State& state) {
+  std::uint32_t i = 0;
+  const mc::Halton sampler(1);
+  for ([[maybe_unused]] const auto _ : state) {
+    ++i;
+    for (std::uint32_t d = 0; d < 10; ++d) benchmark::DoNotOptimize(mc::coordinate<float>(sampler, i, d));
+  }
+  bench::set_counters(state, 10, 10);
+}
+BENCHMARK(halton_numbers)->Name("Halton dims 0 to 9, a number");
 void lattice(benchmark::State& state) { points(state, 0, pair_of(mc::Lattice(1))); }
 BENCHMARK(lattice)->Name("lattice 2-D");
 

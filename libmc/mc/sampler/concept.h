@@ -34,6 +34,8 @@ template <Real S, Sampler T> S coordinate(const T& sampler, std::uint64_t index,
 /// Coordinates dim, dim + 1, ... of point `index`; a plain scalar if N = 1.
 template <Real S, int N, Sampler T> Point<S, N> point(const T& sampler, std::uint64_t index, std::uint32_t dim = 0) {
   if constexpr (N == 1) return coordinate<S>(sampler, index, dim);
+  else if constexpr (requires { sampler.template point<S, N>(index, dim); })
+    return sampler.template point<S, N>(index, dim);
   else {
     Point<S, N> u;
     for (int i = 0; i < N; ++i) u[i] = coordinate<S>(sampler, index, dim + static_cast<std::uint32_t>(i));

@@ -1,5 +1,5 @@
 #pragma once
-/// Nested uniform (Owen) scrambling.
+/// Nested uniform (Owen) scrambling, and other maps of the bits of an index.
 
 #include <cstdint>
 
@@ -36,6 +36,17 @@ constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t se
 ///   Source : [Owen95]. The hash construction is by [LaineKarras11], its constants are by [Vegdahl21].
 constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
   return reverse_bits(owen_scramble_reversed(reverse_bits(x), seed));
+}
+
+/// Product of the second generator matrix of Sobol's sequence with the bits of an index; the leading bit is last.
+/// Column k is row k of Pascal's triangle modulo 2. The triangle modulo 2 is a Kronecker power of [1 1; 0 1], so five
+/// shifts apply the whole matrix.
+constexpr std::uint32_t pascal_triangle(std::uint32_t i) {
+  i ^= (i & 0xaaaaaaaau) >> 1;
+  i ^= (i & 0xccccccccu) >> 2;
+  i ^= (i & 0xf0f0f0f0u) >> 4;
+  i ^= (i & 0xff00ff00u) >> 8;
+  return i ^ i >> 16;
 }
 
 } // namespace mc

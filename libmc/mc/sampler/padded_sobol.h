@@ -36,7 +36,7 @@ struct PaddedSobol {
     template <Real S> Vec2<S> point(std::uint64_t index) const {
       const std::uint32_t i = shuffled(index, key);
       // One reversal for both coordinates: it exchanges the halves.
-      const std::uint64_t y = owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(second));
+      const std::uint64_t y = owen_scramble_reversed(pascal_triangle(i), static_cast<std::uint32_t>(second));
       const std::uint64_t x = reverse_bits64(y << 32 | reversed_first(i, key));
       return {open_uniform<S>(x & 0xffffffff00000000u), open_uniform<S>(x << 32)};
     }
@@ -60,17 +60,7 @@ struct PaddedSobol {
     return owen_scramble_reversed(i, static_cast<std::uint32_t>(key >> 32));
   }
   static std::uint32_t reversed_second(std::uint32_t i, std::uint64_t key) {
-    return owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(mix64(key)));
-  }
-
-  // Product of the second generator matrix with the index bits. Column k is row k of Pascal's triangle modulo 2. The
-  // triangle modulo 2 is a Kronecker power of [1 1; 0 1], so five shifts apply the whole matrix.
-  static constexpr std::uint32_t pascal(std::uint32_t i) {
-    i ^= (i & 0xaaaaaaaau) >> 1;
-    i ^= (i & 0xccccccccu) >> 2;
-    i ^= (i & 0xf0f0f0f0u) >> 4;
-    i ^= (i & 0xff00ff00u) >> 8;
-    return i ^ i >> 16;
+    return owen_scramble_reversed(pascal_triangle(i), static_cast<std::uint32_t>(mix64(key)));
   }
 };
 

@@ -1,3 +1,4 @@
+#include <mc/sampler/padded_sobol_4d.h>
 #include <mc/sampler/sobol.h>
 
 #include <boost/random/detail/sobol_table.hpp>
@@ -31,6 +32,19 @@ const std::uint32_t* Sobol::direction_numbers() {
     return columns;
   }();
   return table.data();
+}
+
+const detail::SobolNibbles& detail::sobol_nibbles() {
+  static const SobolNibbles nibbles = [] {
+    const Sobol sobol;
+    SobolNibbles n{};
+    for (std::uint32_t k = 0; k < 8; ++k)
+      for (std::uint32_t bits = 0; bits < 16; ++bits)
+        for (std::uint32_t d = 2; d < 4; ++d)
+          n[k][bits] |= std::uint64_t{reverse_bits(sobol.unscrambled(bits << 4 * k, d))} << (d == 2 ? 0 : 32);
+    return n;
+  }();
+  return nibbles;
 }
 
 } // namespace mc

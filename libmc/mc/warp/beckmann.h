@@ -4,6 +4,7 @@
 #include <mc/core/dot.h>
 #include <mc/core/erf.h>
 #include <mc/core/error.h>
+#include <mc/core/probit.h>
 #include <mc/core/turns.h>
 #include <mc/domain/hemisphere.h>
 #include <mc/warp/concept.h>
@@ -85,10 +86,10 @@ template <Real S> class BeckmannVisibleNormals {
   Domain domain() const { return {}; }
 
   Vec3<S> sample(const Vec2<S>& u) const {
-    using std::max;
+    using std::max, std::sqrt;
     const S least = std::numeric_limits<S>::epsilon() / 4;
     const S x = slope_with_tail(max(u[1], least));
-    const S y = -S(erfc_inv(S(2 * max(u[0], least))));
+    const S y = probit(u[0]) / S(sqrt(S(2)));
     return Vec3<S>(alpha_x_ * (x * toward_.x() - y * toward_.y()), alpha_y_ * (x * toward_.y() + y * toward_.x()), S(1))
         .normalized();
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// Exponential distributions on the half line and on an interval.
 
+#include <mc/core/log.h>
 #include <mc/domain/interval.h>
 #include <mc/warp/concept.h>
 
@@ -30,10 +31,7 @@ template <Real S> struct Exponential {
   }
 
   Domain domain() const { return {S(0), S(1 / rate)}; }
-  S sample(S u) const {
-    using std::log1p;
-    return -S(log1p(S(-u))) / rate;
-  }
+  S sample(S u) const { return -log_of_complement(u) / rate; }
   S pdf(S x) const {
     using std::exp;
     return x >= 0 ? S(rate * S(exp(S(-rate * x)))) : S(0);

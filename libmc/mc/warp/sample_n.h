@@ -20,7 +20,8 @@ using PointColumns = std::array<std::span<typename W::Scalar>, sizeof(PointOf<W>
 
 /// Calls warp.sample for every i, e.g. sample_n(CosineHemisphere<float>{}, {u0, u1}, {x, y, z}).
 /// The compiler vectorizes the loop if sample neither branches nor calls functions: disk, annulus, sphere, hemispheres,
-/// cone, Henyey-Greenstein. All other warps run as a plain loop.
+/// cone, Henyey-Greenstein, exponential. The normal distribution has its own sample_n(). All other warps run as a plain
+/// loop.
 ///   bits   : identical to sample, if the caller too compiles with -ffp-contract=off.
 ///   arrays : an output may be an array of u; otherwise arrays must not overlap.
 ///   throws : Error unless all arrays have the same size.
@@ -32,6 +33,10 @@ template <Warp W> void sample_n(const W& warp, const UnitColumns<W>& u, const Po
   for (const auto& column : x)
     require(column.size() == n, "sample_n: {} numbers in an array of points, {} in those of u; as many are needed",
             column.size(), n);
+  if constexpr (requires { warp.sample_n(u[0], x[0]); }) {
+    warp.sample_n(u[0], x[0]);
+    return;
+  }
   // The loop writes to a local array, which cannot alias its inputs. Compilers need this proof to vectorize.
   constexpr std::size_t block = 64;
   std::array<std::array<typename W::Scalar, block>, std::tuple_size_v<PointColumns<W>>> out;

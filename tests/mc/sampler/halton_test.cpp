@@ -1,8 +1,12 @@
 #include <mc/sampler/halton.h>
 
+#include <mc/stats/chi_square.h>
+
 #include "nets.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
 
 namespace {
 
@@ -52,17 +56,40 @@ TEST(Halton, DimensionsBeyondTheLastDoNotWrap) {
   for (std::uint32_t i = 0; i < 16; ++i) EXPECT_NE(s.bits(i, 1024), s.bits(i, 0));
 }
 
-// Checks the documented behaviour of indices from 2^32 on.
-TEST(Halton, IndicesFrom2To32On) {
-  constexpr std::uint64_t beyond = std::uint64_t{1} << 32;
+// Checks the documented behaviour of indices from the largest power of the base on.
+TEST(Halton, IndicesBeyondTheLargestPower) {
   const mc::Halton digits(5, mc::HaltonScramble::digits), nested(5);
-  for (const std::uint32_t dim : {0u, 1u, 2u, 17u, 1023u})
+  for (const std::uint32_t dim : {0u, 1u, 2u, 17u, 1023u}) {
+    std::uint64_t power = 1;
+    while (power * mc::Halton::base(dim) <= std::uint64_t{1} << 32) power *= mc::Halton::base(dim);
+    const std::uint64_t length = ~std::uint64_t{0} / power;
     for (std::uint64_t i = 0; i < 100; ++i) {
-      EXPECT_EQ(digits.bits(i, dim), digits.bits(i + beyond, dim)) << dim << " " << i;
-      const std::uint64_t here = nested.bits(i, dim), there = nested.bits(i + beyond, dim);
+      EXPECT_EQ(digits.bits(i, dim), digits.bits(i + power, dim)) << dim << " " << i;
+      const std::uint64_t here = nested.bits(i, dim), there = nested.bits(i + power, dim);
       EXPECT_NE(here, there) << dim << " " << i;
-      EXPECT_LE(std::max(here, there) - std::min(here, there), beyond) << dim << " " << i;
+      EXPECT_LE(std::max(here, there) - std::min(here, there), length) << dim << " " << i;
     }
+  }
+}
+
+// In base 3, indices 1 and 4 have the same first digit and different second ones. Owen's scrambling keeps this, makes
+// the pair of second digits uniform among the 6 pairs of different ones, and the third digits independent.
+TEST(Halton, PairsOfPointsFollowNestedScrambling) {
+  constexpr std::uint64_t seeds = 54'000;
+  std::array<double, 81> counts{};
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    const mc::Halton s(seed);
+    const std::size_t a = test::interval(s.bits(1, 1), 27), b = test::interval(s.bits(4, 1), 27);
+    EXPECT_EQ(a / 9, b / 9);
+    ++counts[a / 3 % 3 * 27 + b / 3 % 3 * 9 + a % 3 * 3 + b % 3];
+  }
+  double statistic = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double expected = i / 27 == i / 9 % 3 ? 0 : double(seeds) / 54;
+    if (expected == 0) EXPECT_EQ(counts[i], 0);
+    else statistic += mc::sqr(counts[i] - expected) / expected;
+  }
+  EXPECT_GE(mc::chi_square_tail(statistic, 53), 1e-4);
 }
 
 // For a smooth integrand, 36 times the points must reduce the error by far more than the factor 6 of independent

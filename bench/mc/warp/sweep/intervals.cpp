@@ -116,8 +116,11 @@ template <class S> void add_bells(std::vector<Row>& rows, const std::string& sca
       [](const auto& w) {
         return [=](auto, auto x) {
           const double t = (d(x) - d(w.mean)) / d(w.sigma), far = std::abs(d(w.mean)) / d(w.sigma);
-          return Bounds{
-              .sample = 16, .pdf = 16 + 4 * t * t + 4 * std::abs(t) * far, .invert = 16 + 4 * far, .scale = d(w.sigma)};
+          return Bounds{.sample = 16,
+                        .pdf = 16 + 4 * t * t + 4 * std::abs(t) * far,
+                        .invert = 16 + 4 * far,
+                        .scale = d(w.sigma),
+                        .reversal = w.mean == 0 ? 4.0 : 4 + 4 * far};
         };
       }));
   rows.push_back(run(

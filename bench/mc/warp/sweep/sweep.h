@@ -22,8 +22,9 @@ namespace sweep {
 ///   sample : |sample(u) - exact| / max(scale, |exact|).
 ///   pdf    : |pdf(x) / exact - 1|.
 ///   invert : |invert(sample(u)) - u|.
+///   reversal : (sample(u) - sample(v)) / max(scale, |sample(u)|) for the next number v after u, in one dimension.
 struct Bounds {
-  double sample = 16, pdf = 16, invert = 16, scale = 1;
+  double sample = 16, pdf = 16, invert = 16, scale = 1, reversal = 0;
 };
 
 /// One law over all trials of a warp: its worst error as a multiple of the bound, and its place.
@@ -195,12 +196,14 @@ template <class W> struct Prober {
     row.invert.note(worst / eps, bound, [&] { return fmt::format("{}: inverted {}", where(u), text(back)); });
   }
 
-  void ascends(const S& u) {
+  void ascends(const S& u, const Bounds& bounds) {
     if constexpr (dim == 1) {
       const S next = std::nextafter(u, S(1));
       if (!(next < 1)) return;
       const S a = warp.sample(u), b = warp.sample(next);
-      row.monotone.note(a <= b ? 0 : 2, 1, [&] { return fmt::format("{}: x {} then {}", where(u), text(a), text(b)); });
+      const bool holds =
+          a <= b || double(a) - double(b) <= bounds.reversal * eps * std::max(bounds.scale, std::abs(double(a)));
+      row.monotone.note(holds ? 0 : 2, 1, [&] { return fmt::format("{}: x {} then {}", where(u), text(a), text(b)); });
     }
   }
 };
@@ -233,7 +236,7 @@ template <class Make, class BoundsOf> Row run(std::string name, const Effort& ef
         using S = typename W::Scalar;
         if constexpr (W::Domain::dim == 1) {
           u = draw.template unit<S>();
-          prober.ascends(u);
+          prober.ascends(u, at(u, warp->sample(u)));
         } else {
           for (int j = 0; j < W::Domain::dim; ++j) u[j] = draw.template unit<S>();
         }
