@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Static checks: every public symbol is documented, each public header compiles alone, and clang-tidy passes over every
-# source with the checks of .clang-tidy; or clang-tidy over the sources whose path matches an expression, with the groups
-# that contain them. Benchmarks against GSL and Embree are included where these libraries are installed.
+# source with the checks of .clang-tidy; or clang-tidy over the sources whose path matches an expression, with the
+# groups that contain them. Benchmarks against GSL and Embree are included where these libraries are installed.
 # Usage: tools/lint.sh [EXPRESSION]
 set -eu
 cd "$(dirname "$0")/.."
@@ -16,6 +16,7 @@ sed 's|/Unity/unity_\([a-z0-9_]*\)_cxx[.]cxx|/Unity/UnifiedSource-\1.cpp|g' buil
 find build/lint -path '*/Unity/unity_*_cxx.cxx' | while read -r group; do
   cp -u "$group" "$(sed 's|/unity_\([a-z0-9_]*\)_cxx[.]cxx|/UnifiedSource-\1.cpp|' <<<"$group")"
 done
+cp tests/.clang-tidy build/lint/tests/ # clang-tidy looks for it beside the group
 cmake --build build/lint --target carlo_generated
 if [ $# -eq 0 ]; then
   cmake --build build/lint --target docs # an undocumented public symbol is an error

@@ -43,6 +43,7 @@ std::vector<Option> rows(MergeCommandOptions& o) {
 // Runs the command of the parts once more, with their results in place of the work. Does not return.
 [[noreturn]] void run_again(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   execv("/proc/self/exe", arguments.data());

@@ -58,6 +58,7 @@ std::string pictures_page(const ViewCommandOptions& o) {
   std::vector<std::string> files = {o.first};
   if (!o.second.empty()) files.push_back(o.second);
   std::vector<render::Image> images;
+  images.reserve(files.size());
   for (const std::string& file : files) images.push_back(render::read_image(file));
   ViewPage page{.tool = "carlo view", .title = {}, .command = o.command, .pictures = {}, .exposure = o.exposure};
   for (render::Image& image : images)

@@ -42,7 +42,7 @@ std::string first_sentence(const std::string& text) {
   return text.substr(0, std::min(stop, text.ends_with('.') ? text.size() - 1 : text.size()));
 }
 
-std::string quoted(std::string text, std::string_view special) {
+std::string quoted(std::string_view text, std::string_view special) {
   std::string out;
   for (const char c : text) {
     if (special.find(c) != std::string_view::npos) out += '\\';

@@ -303,7 +303,7 @@ ExpressionProgram::Frame ExpressionProgram::frame() const {
   thread_local std::unordered_map<std::uint64_t, Cached> states;
   thread_local std::uint64_t last_id = 0; // of the last call, which mostly was of the same program
   thread_local State* last = nullptr;
-  if (last_id == source_->id) return Frame(*last);
+  if (last && last_id == source_->id) return Frame(*last);
   auto found = states.find(source_->id);
   if (found == states.end()) {
     std::erase_if(states, [](const auto& entry) { return entry.second.owner.expired(); });

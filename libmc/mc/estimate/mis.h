@@ -147,9 +147,8 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
     Values counts = counts_;
     for (S& n : counts) n = S(std::ceil(static_cast<double>(n)));
     double sum = 0;
-    // A float counter would stop at 2^24.
     for (std::size_t i = 0; i < size; ++i)
-      for (double k = 0; k < static_cast<double>(counts[i]); ++k) sum += contribution(f, i, next(), counts);
+      for (auto k = static_cast<std::uint64_t>(counts[i]); k > 0; --k) sum += contribution(f, i, next(), counts);
     return sum;
   }
 
