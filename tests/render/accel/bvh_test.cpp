@@ -114,6 +114,63 @@ TEST(Bvh, FindsWhatTestingEveryTriangleFinds) {
   EXPECT_GE(hits, 500);
 }
 
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ using Exact = __float128; // holds the products of three differences of floats
+#else
+using Exact = long double; // of 113 bits, too
+#endif
+
+/// The nearest triangle that a ray meets, by exact arithmetic; -1: none.
+int exact_hit(const std::vector<Vec3>& positions, const std::vector<Triangle>& triangles, const Ray& ray) {
+  using V = std::array<Exact, 3>;
+  const auto from = [](const Vec3& a, const Vec3& b) {
+    return V{Exact(a.x()) - Exact(b.x()), Exact(a.y()) - Exact(b.y()), Exact(a.z()) - Exact(b.z())};
+  };
+  const auto triple = [](const V& a, const V& b, const V& c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  };
+  const V d = from(ray.d, Vec3::Zero());
+  int nearest = -1;
+  Exact t = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Vec3 &p = positions[triangles[i][0]], &q = positions[triangles[i][1]], &r = positions[triangles[i][2]];
+    const V a = from(p, ray.o), b = from(q, ray.o), c = from(r, ray.o);
+    const Exact u = triple(d, c, b), v = triple(d, a, c), w = triple(d, b, a), det = u + v + w;
+    if (det == 0 || (u < 0 || v < 0 || w < 0) == (u > 0 || v > 0 || w > 0)) continue;
+    const Exact here = triple(a, b, c) / -det;
+    if (here > 0 && (nearest < 0 || here < t)) nearest = static_cast<int>(i), t = here;
+  }
+  return nearest;
+}
+
+// Rays that leave long and thin triangles. They do not meet the triangle that they leave.
+TEST(Bvh, RaysFromNeedlesHitWhatExactArithmeticFinds) {
+  mc::Pcg random(2);
+  std::vector<Vec3> positions;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < 700; ++i) {
+    const Vec3 middle = Float(0.25) * in_cube(random), along = direction(random) * Float(0.1),
+               across = mc::cross<Float>(along, direction(random)) * Float(0.01);
+    positions.insert(positions.end(), {middle - along, middle + along, middle + across});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const std::array shapes{Shape(TriangleMesh(positions, triangles))};
+  const Bvh bvh{std::span<const Shape>(shapes)};
+  int hits = 0;
+  for (int rays = 0; rays < 700;) {
+    const Vec3 o(Float(0.25) * (2 * random.uniform<Float>() - 1), Float(0.25) * (2 * random.uniform<Float>() - 1), -4);
+    const Ray arrives{o, Vec3(0, 0, 1)};
+    const auto hit = bvh.intersect(arrives);
+    if (!hit) continue;
+    ++rays;
+    const Ray leaves = shapes[0].surface_point(arrives, *hit).spawn_ray(direction(random));
+    const auto next = bvh.intersect(leaves);
+    hits += next.has_value();
+    EXPECT_EQ(next ? next->prim : -1, exact_hit(positions, triangles, leaves));
+  }
+  EXPECT_GE(hits, 30);
+}
+
 TEST(Bvh, HitsEndBeforeTMax) {
   const Shape shape = soup(200, Float(0.3), 9);
   const Bvh bvh(std::span(&shape, 1));
