@@ -21,7 +21,7 @@ run() {
 }
 set -o pipefail
 
-run cbox render cbox -o out/cbox.png --spp 128 --splat
+run cbox render cbox -o out/cbox.png --spp 128
 run glass render book3-cornell-glass -o out/cornell_glass.png --size 400x400 --spp 144
 run validate validate --all --json out/validate.json --report out/validate
 run converge converge pi -o out/convergence --report out/convergence

@@ -98,13 +98,17 @@ void show(const std::string& path, int seeds, int size, int spp, int reference_s
   options.adaptive = true;
   const Image truth = render::render(file.scene, options).image;
   options.spp = spp;
-  std::array<Spending, 4> all = {{{"even"}, {"adaptive"}, {"tiles"}, {"adaptive tiles"}}};
+  std::array<Spending, 5> all = {{{"even"}, {"adaptive"}, {"tiles"}, {"splat"}, {"default"}}};
   const Spending& even = all[0];
   for (std::size_t i = 0; i < all.size() * std::size_t(seeds); ++i) { // alternately, each with its own seeds
     const std::size_t way = i % all.size();
-    options.seed = i;
-    options.adaptive = way % 2 == 1;
-    options.tiles = way >= 2;
+    options = {.width = options.width, .height = options.height, .spp = spp, .max_depth = options.max_depth, .seed = i};
+    if (way < 4) {
+      options.adaptive = way == 1;
+      options.tiles = way == 2;
+      options.splat = way == 3;
+      if (way != 2) options.branches = 2;
+    }
     all[way].add(render::render(file.scene, options), truth);
   }
   for (const Spending& one : all) {

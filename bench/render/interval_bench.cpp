@@ -79,13 +79,19 @@ void show_ways(const std::string& path, int seeds, int size, int reference_spp) 
   options.spp = reference_spp;
   options.seed = 1'000'000;
   const Image truth = render::render(file.scene, options).image;
+  options.adaptive = options.splat = false;
   show(path, "even", file.scene, options, truth, seeds);
-  options.splat = SplatFilter(file.scene.filter()).is_wide();
-  if (options.splat) show(path, "splat", file.scene, options, truth, seeds);
+  if (SplatFilter(file.scene.filter()).is_wide()) {
+    options.splat = true;
+    show(path, "splat", file.scene, options, truth, seeds);
+  }
   options.splat = false;
   options.tiles = true;
   show(path, "tiles", file.scene, options, truth, seeds);
-  options.tiles = false;
+  options.tiles.reset();
+  options.adaptive = options.splat = true;
+  show(path, "default", file.scene, options, truth, seeds);
+  options.adaptive = options.splat = false;
   options.strategy = strategy_from("mis");
   show(path, "mis", file.scene, options, truth, seeds);
 }

@@ -28,9 +28,10 @@ std::array<double, names.size()> values(const Met& m) {
           double(m.albedo[0]), double(m.albedo[1]), double(m.albedo[2]), double(m.id)};
 }
 
-// Mean of f |cos| eta^2 / pdf. All calls use the same points, so that equal surfaces have equal values.
+// Mean of f |cos| eta^2 / pdf. All calls use the same points, so that equal surfaces have equal values. On diffuse
+// surfaces all samples have one value.
 Spectrum albedo(const Bsdf& bsdf, const Vec3& wo) {
-  constexpr std::uint32_t n = 64;
+  const std::uint32_t n = bsdf.lobes().is_diffuse() ? 1 : 16;
   const mc::SobolPairs points(0, n);
   Spectrum sum = Spectrum::Zero();
   for (std::uint32_t i = 0; i < n; ++i) {

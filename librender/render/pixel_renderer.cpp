@@ -47,20 +47,16 @@ PixelRenderer::PixelRenderer(const Scene& scene, const PathOptions& path, const 
 template <class Stream, class Integrator>
 RenderStats PixelRenderer::render_row_with(const Integrator& integrator, int y, int column,
                                            std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                                           FilmBlock& block) const {
+                                           FilmBlock& block, std::optional<double> weight) const {
   RenderStats stats;
-  std::optional<SplatAccumulator> splat;
-  if (splat_) splat.emplace(*splat_);
+  PixelSamples pixel(splat_);
   const Filter drawn = splat_ ? BoxFilter() : scene_.filter();
   const int image_y = extent_.crop.y + y;
   const auto sets = static_cast<std::uint32_t>(block.sets());
   for (std::size_t i = 0; i < from.size(); ++i) {
     const int x = column + static_cast<int>(i), image_x = extent_.crop.x + x;
     const std::uint64_t rays_before = stats.rays;
-    SampleSums sums;
     for (std::uint32_t set = 0; set < sets; ++set) {
-      Eigen::Array3d sum = Eigen::Array3d::Zero();
-      std::uint32_t valid = 0;
       points_.for_ranges(set, sets, from[i], to[i], [&](const PixelPoints::PointRange& range) {
         const auto points = points_.point_set<typename Stream::Points>(image_x, image_y, range);
         for (std::uint32_t point = range.begin; point < range.end; ++point) {
@@ -71,18 +67,15 @@ RenderStats PixelRenderer::render_row_with(const Integrator& integrator, int y, 
           ++stats.samples;
           if (!radiance.isFinite().all()) [[unlikely]] {
             stats.add({image_x, image_y, range.pass, point});
+            pixel.leave_out();
             continue;
           }
-          sums.add(radiance.cast<double>());
-          if (splat) splat->add(offset, radiance);
-          else sum += radiance.cast<double>();
-          ++valid;
+          pixel.add(offset, radiance);
         }
       });
-      if (splat) splat->flush_to(block, x, y, static_cast<int>(set));
-      if (block.contains(x, y)) block.add(x, y, static_cast<int>(set), sum, valid);
+      pixel.end_set(block, x, y, static_cast<int>(set), weight);
     }
-    block.record_samples(x, y, sums, stats.rays - rays_before);
+    pixel.end_pixel(block, x, y, stats.rays - rays_before);
   }
   return stats;
 }
@@ -90,11 +83,12 @@ RenderStats PixelRenderer::render_row_with(const Integrator& integrator, int y, 
 // After the definition of the function that it calls: clang 14 does not instantiate functions that only a later lambda
 // names.
 RenderStats PixelRenderer::render_row(int y, int column, std::span<const std::uint32_t> from,
-                                      std::span<const std::uint32_t> to, FilmBlock& block) const {
+                                      std::span<const std::uint32_t> to, FilmBlock& block,
+                                      std::optional<double> weight) const {
   return std::visit(
       [&](const auto& integrator) {
         return with_stream(points_.sampler, [&]<class Stream>(std::type_identity<Stream>) {
-          return render_row_with<Stream>(integrator, y, column, from, to, block);
+          return render_row_with<Stream>(integrator, y, column, from, to, block, weight);
         });
       },
       integrator_);

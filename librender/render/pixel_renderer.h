@@ -1,7 +1,7 @@
 #pragma once
 /// Rendering of pixels.
 
-#include <render/film/splat_accumulator.h>
+#include <render/film/pixel_samples.h>
 #include <render/integrator/aov.h>
 #include <render/integrator/light_path_mis.h>
 #include <render/integrator/path_integrator.h>
@@ -51,8 +51,9 @@ class PixelRenderer {
 
   /// Adds the samples [from[i], to[i]) of the pixels (column + i, y) of the film to a block. Pixels may lie in the
   /// border. Samples that are not finite are left out and counted.
+  ///   weight : as in PixelSamples::end_set().
   RenderStats render_row(int y, int column, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                         FilmBlock& block) const;
+                         FilmBlock& block, std::optional<double> weight = {}) const;
 
  private:
   using AnyIntegrator = std::variant<PathIntegrator<Scene>, PathIntegrator<Scene, LightPathMis>, AovIntegrator<Scene>>;
@@ -60,7 +61,7 @@ class PixelRenderer {
                                       const LightTracer* light_tracer);
   template <class Stream, class Integrator>
   RenderStats render_row_with(const Integrator& integrator, int y, int column, std::span<const std::uint32_t> from,
-                              std::span<const std::uint32_t> to, FilmBlock& block) const;
+                              std::span<const std::uint32_t> to, FilmBlock& block, std::optional<double> weight) const;
 
   const Scene& scene_;
   PixelRays pixel_rays_;

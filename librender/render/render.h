@@ -40,16 +40,19 @@ struct RenderOptions {
   std::optional<double> seconds;      ///< Wall-clock limit [s].
   std::optional<double> target_error; ///< Upper limit of RelativeError::bound, together with max_outlier_dominated.
   ErrorScope error_scope = ErrorScope::image; ///< Pixels over which the error is averaged.
-  std::optional<bool> adaptive; ///< Whether to sample adaptively; by default with `seconds` or `target_error`.
+  bool adaptive = true; ///< Whether to sample adaptively, after the first 16 samples of every pixel.
   Strategy strategy = strategy_from("mis+lt"); ///< How paths find light.
   PixelSampler sampler = PixelSampler::sobol;  ///< Point sets of pixels.
-  bool splat = false;      ///< Samples count for all pixels under the filter (SplatFilter). Not adaptive.
-  bool tiles = false;      ///< Pixels share paths in tiles; see PathReuseIntegrator.
-  int max_depth = -1;      ///< Largest number of edges of a path; -1: no limit.
-  int branches = 2;        ///< Number of branches as in PathOptions; tiles do not use it.
-  Aov aov = Aov::radiance; ///< Quantity to render.
-  std::uint64_t seed = 0;  ///< Seed of all random numbers.
-  int threads = 0;         ///< Number of threads; 0: all of the machine.
+  /// Whether samples count for all pixels under the filter (SplatFilter). A filter as narrow as a pixel has no splats.
+  bool splat = true;
+  /// Whether pixels share paths in tiles; see PathReuseIntegrator. None: if the pilot of adaptive sampling favours it.
+  std::optional<bool> tiles;
+  int max_depth = -1; ///< Largest number of edges of a path; -1: no limit.
+  /// Number of branches as in PathOptions. None: 2, and after a pilot 1 or 2, as it favours. Not with tiles.
+  std::optional<int> branches;
+  Aov aov = Aov::radiance;                       ///< Quantity to render.
+  std::uint64_t seed = 0;                        ///< Seed of all random numbers.
+  int threads = 0;                               ///< Number of threads; 0: all of the machine.
   std::function<void(const Progress&)> progress; ///< Called after every unit of pixels by any thread, one at a time.
   const std::atomic<bool>* cancel = nullptr;     ///< Stops the render after the current units once it is true.
   /// Saves and restores the samples. A render that goes on with a larger `spp` takes the samples behind them.
@@ -92,7 +95,11 @@ double memory_needed(const Scene& scene, const RenderOptions& options);
 ///                sets is valid for low-discrepancy points. More sets would be shorter and less accurate, and
 ///                neighbouring pixels already add estimates of the variance.
 ///   light paths : their number belongs to the mean number of samples per pixel. They are dealt to the point sets, too.
-///   adaptive : about the first quarter is an even pilot, which alone determines all later rates; see adaptive_plan().
+///   adaptive : the first 16 samples per pixel, or about a quarter with `seconds` or `target_error`, are an even pilot,
+///              which alone determines all later rates; see adaptive_plan(). The later part of the pilot also tries how
+///              to trace paths, as far as the options leave it open: with one branch, with two, and in tiles. Each
+///              block of 8x8 pixels takes one of them, in turn. Later samples take the one with the least product of
+///              rays and squared mean of relative standard errors.
 ///   throws  : Error for a size, sample count, time or error that is not positive. Error for a crop that is not inside
 ///             the image. Error for options that exclude each other, and for a depth or number of branches out of
 ///             range. Error for a strategy that cannot find every light of the scene (finds_all_lights). MemoryError

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace render {
 
@@ -25,17 +26,15 @@ void check(const Scene& scene, const RenderOptions& options) {
               options.seconds.value_or(0));
   mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
               options.target_error.value_or(0));
-  mc::require(!options.splat || !options.adaptive.value_or(false),
-              "render: splats need the same number of samples in every pixel; leave out splat or adaptive");
-  mc::require(!options.tiles || !options.splat,
-              "render: tiles and splats both share samples between pixels, and the error bar allows for one of "
-              "them; leave out one");
-  mc::require(!options.tiles || options.aov.kind == Aov::radiance,
+  mc::require(!options.tiles.value_or(false) || options.aov.kind == Aov::radiance,
               "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
-  mc::require(options.branches >= 1 && options.branches <= max_branches,
-              "render: {} branches of a path; they must be 1 to {}", options.branches, max_branches);
+  const int branches = options.branches.value_or(1);
+  mc::require(branches >= 1 && branches <= max_branches, "render: {} branches of a path; they must be 1 to {}",
+              branches, max_branches);
+  mc::require(!options.tiles.value_or(false) || !options.branches,
+              "render: a tile shares one continuation of each path, which does not split; leave out tiles or branches");
 }
 
 ImageExtent extent_of(const RenderOptions& options) {
@@ -53,35 +52,34 @@ int sets_of(const RenderOptions& options) {
   return options.seconds || options.target_error ? point_sets : std::min(options.spp, point_sets);
 }
 
-// Bytes of a pixel: sums of each point set and of all samples, counts, and the image; twice with splats, whose passes
-// have films of their own. A checkpoint takes the sums once more, twice while it is written.
-double bytes_per_pixel(const RenderOptions& options, bool has_light_paths) {
+// Bytes of a pixel: sums of each point set and of all samples, counts, and the image. A checkpoint takes the sums once
+// more, twice while it is written.
+double bytes_per_pixel(const RenderOptions& options, bool has_light_paths, bool has_splats) {
   constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(std::uint32_t),
                    bytes_of_light_sums = sizeof(Eigen::Array3d);
   const double sets = sets_of(options);
   double film = sizeof(SampleSums) + sizeof(std::uint64_t) + sets * bytes_of_set;
   if (has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
-  if (options.splat) film += sets * sizeof(double);
-  const double copies = (options.splat ? 2 : 1) + (options.checkpoint ? 2 : 0);
+  if (has_splats) film += sets * sizeof(double);
+  const double copies = options.checkpoint ? 3 : 1;
   return copies * film + 2 * sizeof(std::uint32_t) + sets * sizeof(Spectrum);
 }
 
-double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths) {
-  return bytes_per_pixel(options, has_light_paths) * extent.crop.width * extent.crop.height;
+double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths, bool has_splats) {
+  return bytes_per_pixel(options, has_light_paths, has_splats) * extent.crop.width * extent.crop.height;
 }
 
-constexpr double least_pilot = 16; ///< Least number of samples per pixel of a pilot.
+// Least number of samples per pixel of a pilot.
+constexpr double pilot_samples = 16;
+constexpr double least_rate = 0.25; ///< Of a pixel, relative to the mean, since a pilot may miss features.
 
-bool is_adaptive(const RenderOptions& options) {
-  return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
-}
+// Width and height of the blocks of a pilot that take one way [pixels]; a multiple of the side of a tile.
+constexpr int pilot_block = 8;
 
-// Passes double, so the pilot is about a quarter.
-bool is_end_of_pilot(double mean, double wanted) { return mean >= least_pilot && mean >= wanted / 6; }
-
-// None for a filter so narrow that pixels share nothing.
+// None for a filter so narrow that pixels share nothing, or so wide that splats would take longer than paths; nor for
+// one sample per pixel, whose weights no other point set corrects.
 std::optional<SplatFilter> splat_filter_for(const Scene& scene, const RenderOptions& options) {
-  if (!options.splat) return {};
+  if (!options.splat || sets_of(options) < 2 || scene.filter().radius() > SplatFilter::max_radius) return {};
   const SplatFilter filter(scene.filter());
   return filter.is_wide() ? std::optional(filter) : std::nullopt;
 }
@@ -94,7 +92,7 @@ std::optional<LightTracer> light_tracer_for(const Scene& scene, const RenderOpti
 
 // Number of points of a stratified set: all points of a pixel's set if their number is known in advance.
 std::uint32_t set_size_of(const RenderOptions& options) {
-  const bool known = !options.seconds && !options.target_error && !is_adaptive(options);
+  const bool known = !options.seconds && !options.target_error && (!options.adaptive || options.spp <= pilot_samples);
   return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
 }
 
@@ -119,15 +117,21 @@ constexpr std::uint64_t samples_of_unit = 1 << 17; ///< About, of a unit of pixe
 // not depend on the crop. Within a turn, each row is in the middle of the widest gap, so that a cancelled first pass
 // covers the whole image.
 //   border : width of the border around the film.
-std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border) {
+//   tiles  : the position of the film's pixels in tiles; rows of a tile are rendered with its first row.
+std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border, const Tiling& tiles) {
   std::vector<std::uint32_t> order;
-  const std::size_t height = static_cast<std::size_t>(crop.height) + 2 * border, turns = 2 * border + 1;
+  const auto side = static_cast<std::size_t>(tiles.side);
+  // Rows of a tile above the border; the tile has their turn.
+  const std::size_t above = (static_cast<std::size_t>(tiles.y) + side * border - border) % side;
+  const std::size_t height = static_cast<std::size_t>(crop.height) + 2 * border + above, turns = 2 * border + side;
   for (std::size_t turn = 0; turn < turns; ++turn) {
-    const std::size_t first = (turn + turns - static_cast<std::size_t>(crop.y) % turns) % turns;
+    const std::size_t first = (turn + turns - (static_cast<std::size_t>(crop.y) + turns - above) % turns) % turns;
     const std::size_t rows = (height + turns - 1 - first) / turns, size = std::bit_ceil(std::max(rows, 2ul));
     for (std::size_t i = 0; i < size; ++i) {
       const std::size_t row = mc::reverse_bits64(i) >> (64 - std::countr_zero(size));
-      if (row < rows) order.push_back(static_cast<std::uint32_t>(first + row * turns));
+      if (row >= rows) continue;
+      const std::size_t at = first + row * turns; // from the first row of the first tile
+      if (at == 0 || at > above) order.push_back(static_cast<std::uint32_t>(std::max(at, above) - above));
     }
   }
   return order;
@@ -141,35 +145,105 @@ const Scene& checked(const Scene& scene, const RenderOptions& options) {
 } // namespace
 
 double memory_needed(const Scene& scene, const RenderOptions& options) {
-  return bytes_of(extent_of(options), options, light_tracer_for(scene, options).has_value());
+  return bytes_of(extent_of(options), options, light_tracer_for(scene, options).has_value(),
+                  splat_filter_for(scene, options).has_value());
 }
 
 RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
     : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(checked(scene, options), options)),
-      light_tracer_(light_tracer_for(scene, options)),
-      points_(options.sampler, options.seed, set_size_of(options)), path_{options.strategy, options.max_depth,
-                                                                          options.branches},
-      pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer(), options.aov),
-      row_order_(row_order(extent_.crop, border())), film_(checked_film()), taken_(width() * height()),
-      next_taken_(taken_.size()), is_pilot_(is_adaptive(options)) {
-  if (options.tiles) tile_renderer_.emplace(scene, path_, points_, extent_, light_tracer());
+      light_tracer_(light_tracer_for(scene, options)), points_(options.sampler, options.seed, set_size_of(options)),
+      renderers_(renderers_for(scene)),
+      row_order_(row_order(extent_.crop, border(), tile_renderer() ? tile_renderer()->tiling() : Tiling{})),
+      film_(checked_film()), taken_(width() * height()), next_taken_(taken_.size()), is_pilot_(options.adaptive),
+      chosen_(renderers_.size() == 1 ? 0 : undecided) {
+  film_.set_noise_area(noise_area());
   if (light_tracer_)
     light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
 }
 
 Film RenderJob::checked_film() const {
-  mc::require_memory(bytes_of(extent_, options_, light_tracer_.has_value()),
+  mc::require_memory(bytes_of(extent_, options_, light_tracer_.has_value(), splat_.has_value()),
                      fmt::format("render: {}x{} pixels", extent_.crop.width, extent_.crop.height),
                      "fewer pixels or a part of them need less");
-  return new_film();
-}
-
-Film RenderJob::new_film() const {
   return {extent_.crop.width, extent_.crop.height, sets_of(options_),
           FilmOptions{.splat = splat_,
                       .has_light_paths = light_tracer_.has_value(),
-                      .noise_area = options_.tiles ? PathReuseIntegrator<Scene>::noise_area : 1,
                       .independent_samples = options_.sampler == PixelSampler::independent}};
+}
+
+// With a given number of samples the pilot does not depend on it, so that a render may go on with more. Otherwise it is
+// about a quarter, since passes double.
+bool RenderJob::is_end_of_pilot(double mean, double wanted) const {
+  return mean >= pilot_samples && (!is_limited() || mean >= wanted / 6);
+}
+
+// Without a pilot, what the options leave open is decided here.
+std::vector<RenderJob::Renderer> RenderJob::renderers_for(const Scene& scene) const {
+  std::vector<Renderer> all;
+  const bool is_open = options_.adaptive && options_.aov.kind == Aov::radiance && !options_.branches;
+  const auto add = [&](int branches) {
+    all.emplace_back(std::in_place_type<PixelRenderer>, scene,
+                     PathOptions{options_.strategy, options_.max_depth, branches}, points_, extent_, splat_,
+                     light_tracer(), options_.aov);
+  };
+  if (!options_.tiles.value_or(false)) {
+    add(options_.branches.value_or(2));
+    if (is_open) add(1);
+  }
+  if (options_.tiles.value_or(is_open))
+    all.emplace_back(std::in_place_type<TileRenderer>, scene, PathOptions{options_.strategy, options_.max_depth, 1},
+                     points_, extent_, splat_, light_tracer());
+  return all;
+}
+
+// Of a pixel, counted from the border. Few samples take one renderer for all pixels.
+std::size_t RenderJob::renderer_of(std::size_t row, std::size_t column) const {
+  if (chosen_ != undecided) return chosen_;
+  if (mean_ < pilot_samples / 2) return 0;
+  const auto block = [&](std::size_t at, int first) { // the offset keeps it positive
+    const int shift = pilot_block * (SplatFilter::max_radius + 1);
+    return static_cast<std::size_t>((static_cast<int>(at) + first - static_cast<int>(border()) + shift) / pilot_block);
+  };
+  return (block(row, extent_.crop.y) + block(column, extent_.crop.x)) % renderers_.size();
+}
+
+// Mean standard errors, and not mean variances, so that a few bright samples do not decide.
+std::size_t RenderJob::best_renderer() const {
+  struct Sums {
+    double errors = 0, rays = 0, pixels = 0;
+    double cost() const { return pixels > 0 ? mc::sqr(errors / pixels) * rays / pixels : mc::infinity<double>; }
+  };
+  std::vector<Sums> sums(renderers_.size());
+  const Image image = film_.image();
+  double mean = 0;
+  for (const Spectrum& pixel : image.pixels) mean += pixel.cast<double>().sum() / (3.0 * double(image.pixels.size()));
+  for (int y = 0; y < film_.height(); ++y)
+    for (int x = 0; x < film_.width(); ++x) {
+      Sums& own = sums[renderer_of(static_cast<std::size_t>(y) + border(), static_cast<std::size_t>(x) + border())];
+      const PixelEstimate pixel = film_.estimate(x, y);
+      const Eigen::Array3d unit = pixel.mean.square() + mc::sqr(mean / 2);
+      own.errors += std::sqrt(((pixel.variance - pixel.light_variance) / unit).mean());
+      own.rays += double(film_.rays(x, y));
+      ++own.pixels;
+    }
+  const auto best =
+      std::min_element(sums.begin(), sums.end(), [](const Sums& a, const Sums& b) { return a.cost() < b.cost(); });
+  return static_cast<std::size_t>(best - sums.begin());
+}
+
+// Of all samples. A pilot has its share of tiles, too.
+double RenderJob::noise_area() const {
+  constexpr double of_tiles = PathReuseIntegrator<Scene>::noise_area;
+  if (!tile_renderer()) return 1;
+  if (chosen_ == renderers_.size() - 1) return of_tiles;
+  const double tried = std::max((is_pilot_ ? mean_ : pilot_mean_) - pilot_samples / 2, 0.0);
+  return 1 + (of_tiles - 1) * tried / (std::max(mean_, 1.0) * double(renderers_.size()));
+}
+
+// For the rows of a pass that lack splats: a row, or a tile, and `border` rows above and below.
+Film RenderJob::new_window() const {
+  return {film_.width(), static_cast<int>(2 * border()) + PathReuseIntegrator<Scene>::side, film_.sets(),
+          FilmOptions{.splat = splat_}};
 }
 
 double RenderJob::elapsed() const {
@@ -184,7 +258,7 @@ double RenderJob::wanted() const {
 
 double RenderJob::wanted_by_error() const {
   const double by_error = mean_ * mc::sqr(error_.bound / *options_.target_error);
-  const bool is_sure = mean_ >= least_pilot && outlier_dominated_ <= max_outlier_dominated;
+  const bool is_sure = mean_ >= pilot_samples && outlier_dominated_ <= max_outlier_dominated;
   return is_sure ? by_error : std::max(by_error, 2 * mean_);
 }
 
@@ -228,11 +302,7 @@ std::size_t RenderJob::next_stage() {
 bool RenderJob::begin_pass() {
   const double wanted = this->wanted();
   if (!(mean_ < wanted) || is_out_of_time()) return false;
-  if (is_pilot_ && is_end_of_pilot(mean_, wanted)) {
-    plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_scope, options_.threads,
-                          tile_renderer_ ? tile_renderer_->tiling() : Tiling{});
-    is_pilot_ = false;
-  }
+  if (is_pilot_ && is_end_of_pilot(mean_, wanted)) make_plan();
   pass_ = {.mean = end_of_pass(wanted),
            .wanted = wanted,
            .light_done = light_done_,
@@ -240,8 +310,32 @@ bool RenderJob::begin_pass() {
            .stats = {}};
   if (light_tracing_pass_) pass_.all_light = light_tracing_pass_->path_count(pass_.mean * plan_.light_path_scale);
   next_taken_ = taken_;
-  if (splat_) pass_film_ = new_film();
+  if (splat_ && mean_ > 0) window_ = new_window();
   return true;
+}
+
+// Splats of different passes are averaged by the number of samples of the passes, so that only later passes have rates.
+void RenderJob::make_plan() {
+  is_pilot_ = false;
+  pilot_mean_ = mean_;
+  if (chosen_ == undecided) chosen_ = best_renderer();
+  const auto* tiles = std::get_if<TileRenderer>(&renderers_[chosen_]);
+  plan_ = adaptive_plan(film_, least_rate, options_.error_scope, options_.threads, tiles ? tiles->tiling() : Tiling{});
+  if (!splat_ || plan_.rates.empty()) return;
+  plan_.even = mean_;
+  // A pixel of the border has the rate of the nearest pixel of the film; the mean of all is 1 again.
+  std::vector<float> rates;
+  rates.reserve(taken_.size());
+  const auto inside = [&](std::size_t at, int size) {
+    return std::clamp(static_cast<int>(at) - static_cast<int>(border()), 0, size - 1);
+  };
+  for (std::size_t y = 0; y < height(); ++y)
+    for (std::size_t x = 0; x < width(); ++x)
+      rates.push_back(
+          plan_.rates[static_cast<std::size_t>(inside(y, film_.height()) * film_.width() + inside(x, film_.width()))]);
+  const double mean = std::accumulate(rates.begin(), rates.end(), 0.0) / double(rates.size());
+  for (float& rate : rates) rate = static_cast<float>(double(rate) / mean);
+  plan_.rates = std::move(rates);
 }
 
 std::size_t RenderJob::begin_light_paths(std::uint64_t to) {
@@ -264,9 +358,10 @@ std::size_t RenderJob::begin_pixels() {
 // Parts end between tiles.
 RenderJob::RowPart RenderJob::row_part(std::size_t unit) const {
   const std::size_t parts = pass_.pixel_units / height(), part = unit % parts;
-  const std::size_t cut = tile_renderer_ ? static_cast<std::size_t>(tile_renderer_->tiling().x) : 0;
+  const std::size_t cut = tile_renderer() ? static_cast<std::size_t>(tile_renderer()->first_column()) : 0;
   const auto at = [&](std::size_t i) { return std::min(std::max(i * pass_.columns, cut) - cut, width()); };
-  return {row_order_[unit / parts], at(part), at(part + 1)};
+  const std::size_t row = unit / parts;
+  return {mean_ == 0 ? row_order_[row] : row, at(part), at(part + 1)};
 }
 
 std::optional<RenderJob::Result> RenderJob::compute(std::size_t unit) const {
@@ -285,20 +380,31 @@ std::optional<RenderJob::Result> RenderJob::compute_samples(std::size_t unit) co
     return result;
   }
   const RowPart part = row_part(unit);
-  const std::size_t first = part.row * width() + part.begin, count = part.end - part.begin;
-  std::vector<std::uint32_t> to(count);
-  for (std::size_t i = 0; i < count; ++i) to[i] = samples_at_end(first + i);
-  const std::span<const std::uint32_t> from = std::span(taken_).subspan(first, count);
-  const int y = static_cast<int>(part.row) - pixel_renderer_.border(),
-            x = static_cast<int>(part.begin) - pixel_renderer_.border();
-  result.stats = tile_renderer_ ? tile_renderer_->render_row(y, x, from, to, result.block)
-                                : pixel_renderer_.render_row(y, x, from, to, result.block);
+  const std::size_t first = part.row * width() + part.begin;
+  std::vector<std::uint32_t> to(part.end - part.begin);
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = samples_at_end(first + i);
+  const std::span<const std::uint32_t> from = std::span(taken_).subspan(first, to.size());
+  const auto weight =
+      splat_ && !plan_.rates.empty() ? std::optional((pass_.mean - mean_) / film_.sets()) : std::nullopt;
+  const auto in_film = [&](std::size_t at) { return static_cast<int>(at) - static_cast<int>(border()); };
+  for (std::size_t begin = part.begin; begin < part.end;) {
+    const std::size_t chosen = renderer_of(part.row, begin);
+    std::size_t end = begin + 1;
+    while (end < part.end && renderer_of(part.row, end) == chosen) ++end;
+    const std::size_t skipped = begin - part.begin, count = end - begin;
+    result.stats.merge(std::visit(
+        [&](const auto& renderer) {
+          return renderer.render_row(in_film(part.row), in_film(begin), from.subspan(skipped, count),
+                                     std::span(to).subspan(skipped, count), result.block, weight);
+        },
+        renderers_[chosen]));
+    begin = end;
+  }
   return result;
 }
 
-void RenderJob::absorb(std::size_t unit, Result result) {
-  Film& film = pass_film_ ? *pass_film_ : film_;
-  film.add(result.block);
+void RenderJob::absorb(std::size_t unit, const Result& result) {
+  film_.add(result.block, window_ ? &*window_ : nullptr);
   pass_.stats.merge(result.stats);
   cpu_seconds_ += result.cpu_seconds;
   count(unit);
@@ -311,6 +417,7 @@ void RenderJob::count(std::size_t unit) {
     for (std::size_t i = part.row * width() + part.begin; i < part.row * width() + part.end; ++i)
       next_taken_[i] = samples_at_end(i);
     ++pass_.pixels_done;
+    take_complete_row();
     report_progress();
     return;
   }
@@ -329,25 +436,28 @@ bool RenderJob::needs_results() const {
 // Tells the film of the light paths since the last call.
 void RenderJob::count_light_paths() {
   if (pass_.light_done > pass_.light_counted)
-    light_tracing_pass_->count_paths(pass_.light_counted, pass_.light_done, pass_film_ ? *pass_film_ : film_);
+    light_tracing_pass_->count_paths(pass_.light_counted, pass_.light_done, film_);
   pass_.light_counted = pass_.light_done;
 }
 
-// Ends a pass, finished or not. With splats, an unfinished pass is discarded. The exception is the first pass with two
-// sets: they correct for missing splats of neighbours.
+// With the end of a row, a row above has all its splats.
+void RenderJob::take_complete_row() {
+  const std::size_t parts = pass_.pixel_units / height(), rows = pass_.pixels_done / parts;
+  if (!window_ || pass_.pixels_done % parts != 0 || rows <= 2 * border()) return;
+  film_.take_row(*window_, static_cast<int>(rows - 1 - 2 * border()));
+}
+
+// Ends a pass, finished or not. With splats, the rows of an unfinished pass that are not complete lose its samples. In
+// the first pass all rows keep them, since two sets correct for missing splats of neighbours.
 void RenderJob::end_pass() {
   const bool is_whole = pass_.pixels_done == pass_.pixel_units;
-  if (pass_film_ && !is_whole && (mean_ > 0 || film_.sets() == 1)) {
-    pass_film_.reset();
-    return;
-  }
   total_.merge(pass_.stats);
   light_done_ = pass_.light_done;
   taken_ = next_taken_;
-  if (pass_film_) film_.merge(*pass_film_);
-  pass_film_.reset();
+  window_.reset();
   if (!is_whole) return;
   mean_ = pass_.mean;
+  film_.set_noise_area(noise_area());
   if (options_.target_error || options_.progress) estimate_error();
 }
 
@@ -355,7 +465,7 @@ void RenderJob::estimate_error() {
   error_ = film_.relative_errors().of(options_.error_scope);
   outlier_dominated_ = film_.outlier_dominated();
   const bool is_there = options_.target_error && error_.value <= *options_.target_error;
-  if (is_there && mean_ >= least_pilot && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0)
+  if (is_there && mean_ >= pilot_samples && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0)
     unreliable_target_spp_ = mean_;
 }
 
@@ -371,8 +481,8 @@ void RenderJob::report_progress() const {
                      }});
 }
 
-// Without the samples of an unfinished pass with splats. Within the first pass, missing rows repeat others; their
-// number is in `missing_rows`.
+// Without the rows of a pass with splats that are not complete. Within the first pass, missing rows repeat others;
+// their number is in `missing_rows`.
 Image RenderJob::image_so_far(int& missing_rows) const {
   Image image = film_.image();
   missing_rows = mean_ == 0 ? repeat_rows(film_, image) : 0;

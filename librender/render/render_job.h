@@ -9,6 +9,7 @@
 #include <mc/run/job.h>
 
 #include <chrono>
+#include <variant>
 
 namespace render {
 
@@ -16,7 +17,8 @@ namespace render {
 ///   passes : each pass takes every pixel to its number of samples for a mean over the image. A pass has up to three
 ///            stages: light paths, pixels, and again light paths.
 ///   units  : 1024 light paths, or some pixels of a row; see render_row() of PixelRenderer and TileRenderer.
-///   plan   : computed before the first pass after the pilot, for adaptive sampling.
+///   plan   : made before the first pass after the pilot, for adaptive sampling.
+///   renderers : of single pixels or of tiles; blocks of the pilot take those that the options leave open in turn.
 class RenderJob {
  public:
   /// Result of a unit.
@@ -37,7 +39,7 @@ class RenderJob {
   /// As mc::Job.
   std::optional<Result> compute(std::size_t unit) const;
   /// As mc::Job.
-  void absorb(std::size_t unit, Result result);
+  void absorb(std::size_t unit, const Result& result);
   /// As mc::Job.
   void skip(std::size_t unit) { count(unit); }
   /// As mc::Job: at the end of a pass, a plan or a limit depends on the samples.
@@ -47,19 +49,20 @@ class RenderJob {
   /// As mc::Job.
   template <class Archive> void archive(Archive& a) {
     double seconds = elapsed();
-    a(film_, taken_, next_taken_, plan_, is_pilot_, mean_, total_, error_.value, error_.bound, outlier_dominated_,
-      unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds_);
-    bool has_splats = pass_film_.has_value();
-    a(has_splats);
-    if (has_splats && !pass_film_) pass_film_ = new_film();
-    if (has_splats) a(*pass_film_);
+    a(film_, taken_, next_taken_, plan_, is_pilot_, pilot_mean_, chosen_, mean_, total_, error_.value, error_.bound,
+      outlier_dominated_, unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds_);
+    bool has_window = window_.has_value();
+    a(has_window);
+    if (has_window && !window_) window_ = new_window();
+    if (has_window) a(*window_);
     if constexpr (Archive::is_reader) {
       earlier_seconds_ = seconds;
       start_ = std::chrono::steady_clock::now();
+      film_.set_noise_area(noise_area());
     }
   }
   /// As mc::Job.
-  template <class Archive> void archive_stage(Archive& a) { a(taken_, plan_, stage_, pass_); }
+  template <class Archive> void archive_stage(Archive& a) { a(taken_, plan_, chosen_, mean_, stage_, pass_); }
 
   /// Image and statistics of the samples so far. Call it once, after the run.
   ///   is_done : whether the run came to its end.
@@ -85,6 +88,8 @@ class RenderJob {
         stats);
     }
   };
+  using Renderer = std::variant<PixelRenderer, TileRenderer>;
+  static constexpr std::size_t undecided = std::size_t(-1);
   // The pixels of a unit: columns [begin, end) of a row, counted from the border.
   struct RowPart {
     std::size_t row, begin, end;
@@ -94,19 +99,28 @@ class RenderJob {
   bool is_limited() const { return options_.seconds || options_.target_error; }
   // The first pass is always completed.
   bool is_out_of_time() const { return options_.seconds && mean_ > 0 && elapsed() >= *options_.seconds; }
-  std::size_t border() const { return static_cast<std::size_t>(pixel_renderer_.border()); }
+  std::size_t border() const { return splat_ ? static_cast<std::size_t>(splat_->reach()) : 0; }
   // Including the border, with samples that count for the image.
   std::size_t height() const { return static_cast<std::size_t>(extent_.crop.height) + 2 * border(); }
   std::size_t width() const { return static_cast<std::size_t>(extent_.crop.width) + 2 * border(); }
   const LightTracer* light_tracer() const { return light_tracer_ ? &*light_tracer_ : nullptr; }
-  Film new_film() const;
+  // None unless pixels may be rendered in tiles.
+  const TileRenderer* tile_renderer() const { return std::get_if<TileRenderer>(&renderers_.back()); }
+  std::vector<Renderer> renderers_for(const Scene& scene) const;
+  std::size_t renderer_of(std::size_t row, std::size_t column) const;
+  std::size_t best_renderer() const;
+  double noise_area() const;
+  bool is_end_of_pilot(double mean, double wanted) const;
+  Film new_window() const;
   Film checked_film() const;
 
   double wanted() const;
   double wanted_by_error() const;
   double end_of_pass(double wanted) const;
   bool begin_pass();
+  void take_complete_row();
   void end_pass();
+  void make_plan();
   std::size_t begin_light_paths(std::uint64_t to);
   std::size_t begin_pixels();
   void count_light_paths();
@@ -116,8 +130,10 @@ class RenderJob {
   std::optional<Result> compute_samples(std::size_t unit) const;
   void count(std::size_t unit);
   RowPart row_part(std::size_t unit) const;
+  // With splats each set of each pixel takes part in each pass, since a pixel's splats count for others.
   std::uint32_t samples_at_end(std::size_t pixel) const {
-    return std::max(taken_[pixel], plan_.samples(pixel, pass_.mean));
+    const std::uint32_t least = splat_ && !plan_.rates.empty() ? static_cast<std::uint32_t>(film_.sets()) : 0;
+    return std::max(taken_[pixel] + least, plan_.samples(pixel, pass_.mean));
   }
 
   const RenderOptions& options_;
@@ -125,18 +141,18 @@ class RenderJob {
   std::optional<SplatFilter> splat_;
   std::optional<LightTracer> light_tracer_;
   PixelPoints points_;
-  PathOptions path_;
-  PixelRenderer pixel_renderer_;
-  std::optional<TileRenderer> tile_renderer_;
+  std::vector<Renderer> renderers_; ///< Tiles last.
   std::optional<LightTracingPass> light_tracing_pass_;
   std::vector<std::uint32_t> row_order_; ///< Rows that write to common pixels keep their order in every crop.
 
   Film film_;
-  std::optional<Film> pass_film_;    ///< Samples of the pass, with splats: an unfinished pass is discarded.
+  std::optional<Film> window_;       ///< Splats of the pass on rows that are not complete; none in the first pass.
   std::vector<std::uint32_t> taken_, ///< Number of samples of every pixel before the pass.
       next_taken_;                   ///< The same for pixels that were absorbed in the pass.
   SamplingPlan plan_;
   bool is_pilot_;                ///< Whether the plan is yet to be made.
+  double pilot_mean_ = 0;        ///< Samples per pixel of the pilot, once the plan is made.
+  std::size_t chosen_;           ///< Index of the renderer; undecided during a pilot of several.
   double mean_ = 0;              ///< Samples per pixel after the finished passes.
   std::uint64_t light_done_ = 0; ///< Number of light paths of the finished passes.
   RenderStats total_;

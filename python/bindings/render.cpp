@@ -189,9 +189,11 @@ scene : a Mitsuba XML file, a mesh, or a name of the gallery such as "cbox"
 Options, None for those of the scene:
   size = None (width, height), crop = None (x, y, width, height)
   spp = None, seconds = None, target_error = None : samples per pixel, or a limit of time [s] or of the error
-  adaptive = None  : more samples where the error is larger
+  adaptive = True  : more samples where the error is larger, after the first 16 of every pixel
   strategy = None, sampler = None : as for carlo render
-  splat = False, tiles = False, branches = 2, max_depth = None (-1: no limit)
+  splat = True     : samples count for all pixels under the filter
+  tiles = None, branches = None : 2x2 pixels share paths, and number of branches of a path; None: as a pilot favours
+  max_depth = None : edges of a path; -1: no limit
   seed = 0, threads = 0 (all). The same seed gives the same bits, for any number of threads.
   layers = False   : fill Picture.layers: normals, positions, depth, albedo
   dialect = "mitsuba" or "lajolla"; variables = {} : values of $names
@@ -323,10 +325,10 @@ void bind_render(py::module_& m) {
   m.def(
       "render",
       [](const PathLike& scene, std::optional<std::pair<int, int>> size, std::optional<Crop> crop,
-         std::optional<int> spp, std::optional<double> seconds, std::optional<double> target_error,
-         std::optional<bool> adaptive, std::optional<std::string> strategy, std::optional<std::string> sampler,
-         bool splat, bool tiles, int branches, std::optional<int> max_depth, std::uint64_t seed, int threads,
-         bool layers, const std::string& dialect, const render::Variables& variables, const py::object& progress) {
+         std::optional<int> spp, std::optional<double> seconds, std::optional<double> target_error, bool adaptive,
+         std::optional<std::string> strategy, std::optional<std::string> sampler, bool splat, std::optional<bool> tiles,
+         std::optional<int> branches, std::optional<int> max_depth, std::uint64_t seed, int threads, bool layers,
+         const std::string& dialect, const render::Variables& variables, const py::object& progress) {
         RenderSettings s{{}, size, spp, max_depth, std::move(strategy), std::move(sampler), dialect, variables, layers};
         if (crop) s.options.crop = render::Crop{(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
         s.options.seconds = seconds;
@@ -340,10 +342,11 @@ void bind_render(py::module_& m) {
         return render_scene(scene.text(), s, progress);
       },
       arg("scene"), py::kw_only(), arg("size") = py::none(), arg("crop") = py::none(), arg("spp") = py::none(),
-      arg("seconds") = py::none(), arg("target_error") = py::none(), arg("adaptive") = py::none(),
-      arg("strategy") = py::none(), arg("sampler") = py::none(), arg("splat") = false, arg("tiles") = false,
-      arg("branches") = 2, arg("max_depth") = py::none(), arg("seed") = 0, arg("threads") = 0, arg("layers") = false,
-      arg("dialect") = "mitsuba", arg("variables") = py::dict(), arg("progress") = py::none(), render_doc);
+      arg("seconds") = py::none(), arg("target_error") = py::none(), arg("adaptive") = true,
+      arg("strategy") = py::none(), arg("sampler") = py::none(), arg("splat") = true, arg("tiles") = py::none(),
+      arg("branches") = py::none(), arg("max_depth") = py::none(), arg("seed") = 0, arg("threads") = 0,
+      arg("layers") = false, arg("dialect") = "mitsuba", arg("variables") = py::dict(), arg("progress") = py::none(),
+      render_doc);
   m.def(
       "read_image", [](const PathLike& path) { return Picture{render::read_image(path.text())}; }, arg("path"),
       "Reads .exr (with its variance), .hdr, .pfm, .png or .jpg as a Picture.");

@@ -3,6 +3,7 @@
 #include <render/integrator/light_tracer.h>
 
 #include <mc/core/error.h>
+#include <mc/random/pcg.h>
 
 #include "support/picture_seeds.h"
 #include "support/random_scene.h"
@@ -38,8 +39,8 @@ Scene corner() {
   return builder.build();
 }
 
-// Thirty rooms with area or point lights and 16 images of each method. Strategies that find the lights, and samplers,
-// alternate.
+// Thirty rooms with area or point lights and 16 images of each method. Strategies that find the lights, samplers, and
+// tiles alone or what a render chooses by default alternate.
 TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.scenes < 30; ++i) {
@@ -47,13 +48,15 @@ TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
     RenderOptions options = options_of(i, 48), much = options_of(i, 192);
     options.strategy = much.strategy = strategy_from(std::array{"mis+lt", "mis", "nee"}[i % 3]);
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i / 3 % 3];
+    RenderOptions shared = options;
+    shared.seed += 1'000'000;
+    options.tiles = options.adaptive = options.splat = false;
+    if (i % 2 == 0) shared.tiles = true, shared.adaptive = shared.splat = false;
     const Image reference = render::render(scene, much).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
     const std::vector<Spectrum> unit = pixel_units(reference);
     const mc::Moments one = picture_means(scene, options, 16, unit);
-    options.tiles = true;
-    options.seed += 1'000'000;
-    agreement.add(i, one, picture_means(scene, options, 16, unit),
+    agreement.add(i, one, picture_means(scene, shared, 16, unit),
                   2.05); // Student's t with about 28 degrees of freedom
   }
   EXPECT_LE(agreement.outliers, 5); // of 30 at 5 %: more than 5 with probability 1/300
@@ -86,6 +89,7 @@ TEST(PathReuseRender, IsUnbiasedWithHonestErrorBars) {
     options.sampler = sampler;
     const SeedEnsemble tiles(scene, options, 0);
     options.tiles = false;
+    options.branches = 2;
     expect_same_statistics(tiles, SeedEnsemble(scene, options, 1000));
   }
 }
@@ -99,6 +103,37 @@ TEST(PathReuseRender, Adaptive_IsUnbiased) {
   options.tiles = false;
   options.adaptive = false;
   expect_same_statistics(tiles, SeedEnsemble(scene, options, 1000));
+}
+
+/// Many small balls of two materials under a white sky.
+Scene balls() {
+  SceneBuilder builder;
+  const BsdfId orange = builder.add(Lambert(Spectrum(Float(0.8), Float(0.3), Float(0.1)))),
+               metal = builder.add(RoughConductor<TrowbridgeReitzFacets>(
+                   Spectrum::Constant(Float(0.5)), Spectrum::Constant(3), TrowbridgeReitzFacets(Float(0.2))));
+  builder.add(Light(ConstantBackground(Spectrum::Ones())));
+  mc::Pcg random(1);
+  for (int i = 0; i < 400; ++i) {
+    const mc::Vec3<double> u = random.point<double, 3>();
+    builder.add(Sphere(4 * u - Vec3d::Constant(2), 0.12), {i % 2 == 0 ? orange : metal});
+  }
+  builder.set(ThinLens(Transform::look_at({0, 0, 9}, {0, 0, 0}, {0, 1, 0}), {.fov_axis = FovAxis::y, .fov = 28}));
+  return builder.build();
+}
+
+// A room of diffuse walls, and balls of which neighbouring pixels show different ones.
+TEST(PathReuseRender, PilotChoosesTilesWhereTheyPay) {
+  RenderOptions options;
+  options.width = 48;
+  options.height = 40;
+  options.spp = 64;
+  EXPECT_EQ(render::render(corner(), options).image.noise_area, 4);
+  EXPECT_EQ(render::render(balls(), options).image.noise_area, 1.125) << "a third of half the pilot";
+  options.tiles = false;
+  EXPECT_EQ(render::render(corner(), options).image.noise_area, 1);
+  options.tiles.reset();
+  options.branches = 2;
+  EXPECT_EQ(render::render(corner(), options).image.noise_area, 1);
 }
 
 TEST(PathReuseRender, ReportsNoiseArea) {
@@ -126,9 +161,9 @@ TEST(PathReuseRender, StopsByTimeErrorOrCancelWithWholeRounds) {
 TEST(PathReuseRender, RejectsIncompatibleOptions) {
   const Scene scene = corner();
   RenderOptions options = options_of_tiles(16);
-  options.splat = true;
+  options.branches = 2;
   EXPECT_THROW(render::render(scene, options), mc::Error);
-  options.splat = false;
+  options.branches.reset();
   options.aov = Aov::normals;
   EXPECT_THROW(render::render(scene, options), mc::Error);
 }

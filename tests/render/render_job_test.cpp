@@ -67,18 +67,21 @@ TEST(RenderJob, StateBetweenUnits_ContinuesWithTheSameBits) {
 // More samples for a finished render.
 TEST(RenderJob, LargerSampleCount_ContinuesWithTheSameBits) {
   const Scene scene = lit_floor();
-  RenderOptions few = kinds_of_work()[0], many = few;
-  few.spp = 8;
-  many.spp = 50;
-  RenderJob first(scene, few);
-  mc::run_job(first, {});
-  mc::ArchiveWriter bytes;
-  bytes(first);
-  RenderJob second(scene, many);
-  mc::ArchiveReader reader(bytes.text());
-  reader(second);
-  mc::run_job(second, {});
-  EXPECT_TRUE(same(second.result(true).image, render::render(scene, many).image));
+  for (const auto& [adaptive, spp] : {std::pair(false, 8), std::pair(true, 8), std::pair(true, 64)}) {
+    RenderOptions few = kinds_of_work()[0], many = few;
+    few.adaptive = many.adaptive = adaptive;
+    few.spp = spp;
+    many.spp = 100;
+    RenderJob first(scene, few);
+    mc::run_job(first, {});
+    mc::ArchiveWriter bytes;
+    bytes(first);
+    RenderJob second(scene, many);
+    mc::ArchiveReader reader(bytes.text());
+    reader(second);
+    mc::run_job(second, {});
+    EXPECT_TRUE(same(second.result(true).image, render::render(scene, many).image)) << adaptive << " " << spp;
+  }
 }
 
 } // namespace

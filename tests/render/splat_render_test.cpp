@@ -4,7 +4,10 @@
 
 #include "support/picture_seeds.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -38,6 +41,7 @@ TEST(SplatRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
     const Scene scene = ball_on_plane(filter);
     for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
       RenderOptions options = splatted(12);
+      options.adaptive = false;
       options.sampler = sampler;
       options.threads = 1;
       const Image whole = render::render(scene, options).image;
@@ -54,7 +58,7 @@ TEST(SplatRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
 }
 
 // A filter that is no wider than a pixel has nothing to share: images stay the same.
-TEST(SplatRender, NarrowFilter_EqualsUnsplatted) {
+TEST(SplatRender, FilterOfOnePixel_EqualsUnsplatted) {
   const Scene scene = ball_on_plane(BoxFilter());
   RenderOptions options = splatted(8);
   const Image a = render::render(scene, options).image;
@@ -80,9 +84,10 @@ TEST(SplatRender, IsUnbiasedWithHonestErrorBars) {
   }
 }
 
-TEST(SplatRender, StopsByTimeErrorOrCancelWithWholeRounds) {
+TEST(SplatRender, StopsByTimeOrError) {
   const Scene scene = ball_on_plane(GaussianFilter());
   RenderOptions options = splatted(16);
+  options.adaptive = false;
   options.target_error = 0.05;
   const RenderResult by_error = render::render(scene, options);
   EXPECT_LE(by_error.relative_error, 0.05);
@@ -91,20 +96,59 @@ TEST(SplatRender, StopsByTimeErrorOrCancelWithWholeRounds) {
   options.seconds = 0.05;
   const RenderResult by_time = render::render(scene, options);
   EXPECT_GE(by_time.spp, 1);
-  EXPECT_EQ(by_time.spp, std::round(by_time.spp)) << "rows differ";
   EXPECT_FALSE(by_time.partial);
-  // Cancelled in the second round: the first round is complete.
+}
+
+// Cancelled in the third pass after 8 of 15 rows, with two rows of the border on each side. The first four rows of the
+// picture have all splats of this pass, and the others keep those of the passes before.
+TEST(SplatRender, Cancelled_RowsKeepWhatIsComplete) {
+  const Scene scene = ball_on_plane(GaussianFilter());
+  RenderOptions options = splatted(4);
+  options.adaptive = false;
+  options.threads = 1; // several might render all rows of the pass while the first is under way
+  const Image before = render::render(scene, options).image;
+  options.spp = 8;
+  const Image after = render::render(scene, options).image;
   std::atomic<bool> cancel = false;
-  options = splatted(1 << 20);
-  options.threads = 1; // several might render all rows of the round while the first is under way
+  options.spp = 1 << 20;
   options.cancel = &cancel;
   options.progress = [&](const Progress& p) { cancel = p.samples > 6u * 17 * 15; };
-  const RenderResult cancelled = render::render(scene, options);
-  EXPECT_TRUE(cancelled.partial);
-  EXPECT_EQ(cancelled.spp, 4);
-  EXPECT_FALSE(cancelled.image.variance.empty());
-  options.adaptive = true;
-  EXPECT_THROW(render::render(scene, options), mc::Error);
+  const RenderResult cut = render::render(scene, options);
+  EXPECT_TRUE(cut.partial);
+  EXPECT_EQ(cut.samples, 17u * (15 * 4 + 8 * 4));
+  for (int y = 0; y < 11; ++y)
+    for (int x = 0; x < 13; ++x) {
+      const Image& expected = y < 4 ? after : before;
+      EXPECT_TRUE((cut.image.at(x, y) == expected.at(x, y)).all()) << x << " " << y;
+    }
+}
+
+// Splats of pixels with different numbers of samples, of tiles, and both.
+TEST(SplatRender, AdaptiveAndTiles_AreUnbiased) {
+  const Scene scene = ball_on_plane(GaussianFilter());
+  for (const auto& [adaptive, tiles] : {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
+    SCOPED_TRACE(fmt::format("adaptive {}, tiles {}", adaptive, tiles));
+    RenderOptions options = splatted(48);
+    options.adaptive = adaptive;
+    options.tiles = tiles;
+    const SeedEnsemble shared(scene, options, 0);
+    options.tiles = options.adaptive = options.splat = false;
+    expect_same_statistics(shared, SeedEnsemble(scene, options, 1000));
+  }
+}
+
+TEST(SplatRender, Tiles_SameBitsForAnyNumberOfThreadsAndAnyPart) {
+  const Scene scene = ball_on_plane(GaussianFilter());
+  RenderOptions options = splatted(12);
+  options.tiles = true;
+  options.threads = 1;
+  const Image whole = render::render(scene, options).image;
+  options.threads = 3;
+  EXPECT_EQ(count_different_pixels(render::render(scene, options).image, whole), 0);
+  for (const Crop& crop : {Crop{0, 0, 4, 5}, Crop{5, 4, 8, 7}, Crop{7, 3, 1, 1}, Crop{3, 2, 6, 6}}) {
+    options.crop = crop;
+    EXPECT_EQ(count_different_pixels(render::render(scene, options).image, whole, crop.x, crop.y), 0);
+  }
 }
 
 } // namespace

@@ -93,6 +93,12 @@ const GalleryScene* named_scene(const std::string& word) {
   return is_file ? nullptr : &gallery_scene(word);
 }
 
+// None if the option is not given.
+std::optional<bool> on_or_off(std::string_view option, const std::string& word) {
+  mc::require(word.empty() || word == "on" || word == "off", "{} '{}' must be on or off", option, word);
+  return word.empty() ? std::nullopt : std::optional(word == "on");
+}
+
 // The settings of the scene, overridden by those of the command line.
 render::RenderOptions settings_of(const RenderCommandOptions& options, const render::RenderDefaults& defaults,
                                   const GalleryScene* named) {
@@ -109,14 +115,12 @@ render::RenderOptions settings_of(const RenderCommandOptions& options, const ren
   mc::require(options.error_of.empty() || options.error_of == "picture" || options.error_of == "worst",
               "--error-of '{}' must be picture or worst", options.error_of);
   if (options.error_of == "worst") settings.error_scope = render::ErrorScope::worst_block;
-  mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
-              "--adaptive '{}' must be on or off", options.adaptive);
-  if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
-  mc::require(!options.splat || options.adaptive != "on",
-              "--splat and --adaptive on exclude each other: splats need the same number of samples in every "
-              "pixel; leave one out");
-  settings.splat = options.splat;
-  settings.tiles = options.tiles;
+  settings.adaptive = on_or_off("--adaptive", options.adaptive).value_or(settings.adaptive);
+  settings.splat = on_or_off("--splat", options.splat).value_or(settings.splat);
+  settings.tiles = on_or_off("--tiles", options.tiles);
+  mc::require(!settings.tiles.value_or(false) || !options.branches,
+              "--tiles on and --branches exclude each other: a tile shares one continuation of each path; leave one "
+              "out");
   if (!options.strategy.empty()) settings.strategy = render::strategy_from(options.strategy);
   if (!options.sampler.empty()) settings.sampler = render::sampler_from(options.sampler);
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
@@ -124,7 +128,7 @@ render::RenderOptions settings_of(const RenderCommandOptions& options, const ren
   settings.max_depth = options.max_depth.value_or(defaults.max_depth);
   mc::require(!options.branches || (*options.branches >= 1 && *options.branches <= render::max_branches),
               "--branches {} must be 1 to {}", options.branches.value_or(0), render::max_branches);
-  settings.branches = options.branches.value_or(settings.branches);
+  settings.branches = options.branches;
   settings.aov = defaults.aov;
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;

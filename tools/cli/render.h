@@ -19,7 +19,7 @@ struct RenderCommandOptions {
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< mean relative standard error to reach
   std::string error_of;               ///< "picture" or "worst"; empty: picture
-  std::string adaptive;               ///< on or off; empty: on with --time and --target-error
+  std::string adaptive;               ///< on or off; empty: on
   std::string report;                 ///< folder of a page; empty: none
   std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
@@ -30,8 +30,8 @@ struct RenderCommandOptions {
   std::uint64_t seed = 0;
   int threads = 0;                   ///< 0: all
   std::optional<double> memory;      ///< [GiB]
-  bool splat = false;                ///< samples count for all pixels under the filter
-  bool tiles = false;                ///< 2x2 pixels share paths
+  std::string splat;                 ///< on or off: samples count for all pixels under the filter; empty: on
+  std::string tiles;                 ///< on or off: 2x2 pixels share paths; empty: the pilot chooses
   std::string tone;                  ///< curve of a PNG; empty: the gallery's, or clamp
   std::string exposure;              ///< of a PNG: stops, or auto; empty: the gallery's, or 0
   bool layers = false;               ///< EXR only: more channels

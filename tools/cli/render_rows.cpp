@@ -14,9 +14,6 @@ namespace {
 
 constexpr const char* spp_reason = "--time and --target-error choose the number of samples";
 constexpr const char* strip_reason = "--compare-strategies writes a strip of small pictures with equal work";
-constexpr const char* adaptive_reason = "splats need the same number of samples in every pixel";
-constexpr const char* splat_reason = "both share samples between pixels, and the error bar allows for one of them";
-constexpr const char* branch_reason = "a tile shares one continuation of each path, so that it does not split";
 
 OptionGroup common_group(RenderCommandOptions& o) {
   return {
@@ -54,24 +51,17 @@ OptionGroup sampling_group(RenderCommandOptions& o) {
               {"--sampler", "NAME", &o.sampler,
                "Point set of the pixels: independent, stratified or sobol. Default: sobol."},
               {"--adaptive", "on|off", &o.adaptive,
-               "Take more samples where the error is larger, as a first quarter of them estimates it. Default: off "
-               "with --spp, else on."},
-              {"--splat", "", &o.splat,
+               "Take more samples where the error is larger, as the first 16 of every pixel (the pilot) estimate it. "
+               "Default: on."},
+              {"--splat", "on|off", &o.splat,
                "Add each sample to all pixels under the scene's filter: less noise for filters wider than a pixel, "
-               "but correlated between neighbours."},
-              {"--tiles",
-               "",
-               &o.tiles,
+               "but correlated between neighbours. Default: on."},
+              {"--tiles", "on|off", &o.tiles,
                "Share paths within tiles of 2x2 pixels: less time to an error on diffuse walls, with noise correlated "
-               "within a tile.",
-               false,
-               {{"--splat", splat_reason}}},
-              {"--branches",
-               "N",
-               &o.branches,
-               "Split each path N ways at its first hit that is neither mirror nor smooth glass. Default: 2.",
-               false,
-               {{"--tiles", branch_reason}}},
+               "within a tile. Default: on where the pilot of --adaptive finds that it pays."},
+              {"--branches", "N", &o.branches,
+               "Split each path N ways at its first hit that is neither mirror nor smooth glass. Not with --tiles on. "
+               "Default: 1 or 2, whichever the pilot finds better; 2 without one."},
               {"--max-depth", "N", &o.max_depth,
                "Longest path in edges: 1 is light seen directly, -1 no limit. Default: the scene's."},
           }};
@@ -81,8 +71,8 @@ OptionGroup image_group(RenderCommandOptions& o) {
   return {"Image",
           {
               {"--crop", "X,Y,W,H", &o.crop,
-               "Render only this part, from pixel X, Y counted from the upper left corner. With --spp the pixels are "
-               "those of the whole picture, bit for bit."},
+               "Render only this part, from pixel X, Y counted from the upper left corner. With --spp and --adaptive "
+               "off the pixels are those of the whole picture, bit for bit."},
               {"--tone", "CURVE", &o.tone,
                "Curve of a PNG for bright light: clamp, reinhard or filmic. Default: the gallery scene's, else clamp."},
               {"--exposure", "STOPS", &o.exposure,
@@ -93,7 +83,7 @@ OptionGroup image_group(RenderCommandOptions& o) {
                              "FOLDER",
                              &o.report,
                              "Keep a page in this folder (index.html) while the render runs: the picture so far, the "
-                             "error against time, and what remains. Not with --compare-strategies.",
+                             "error against time, and what remains.",
                              false,
                              {{"--compare-strategies", "--compare-strategies has no page"}}},
                             {"index.html"}),
@@ -143,16 +133,11 @@ std::vector<HelpSection> render_sections() {
        {
            {"--strategy", "mis+lt for any scene; mis to compare with other path tracers; nee for diffuse rooms with "
                           "small lights. The others show how a single technique works or fails."},
-           {"--adaptive on",
-            "Pictures with noisy and quiet parts and at least 32 samples per pixel. Not with --splat: " +
-                std::string(adaptive_reason) + "."},
-           {"--splat", "Scenes with a Gaussian or tent filter, where correlated noise does not matter. Not with "
-                       "--tiles: " +
-                           std::string(splat_reason) + "."},
-           {"--tiles", "Rooms with diffuse walls. Not for many small objects, where neighbouring pixels show different "
-                       "ones."},
-           {"--branches", "2 for the least time to an error; 1 for the most samples per second. Not with --tiles: " +
-                              std::string(branch_reason) + "."},
+           {"--adaptive off", "The same number of samples in every pixel, as to compare with other programs."},
+           {"--splat off", "Noise that is independent between pixels, as denoisers expect it; with --tiles off."},
+           {"--tiles on", "Rooms with diffuse walls. Not for many small objects, where neighbouring pixels show "
+                          "different ones."},
+           {"--branches", "2 for indirect light on diffuse surfaces; 1 for the most samples per second."},
            {"", "docs/methods/choosing.md tells more."},
        }},
       {"The target error",

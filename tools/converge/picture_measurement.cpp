@@ -217,6 +217,7 @@ class PictureSession {
     o.adaptive = is_adaptive(method.allocation);
     o.splat = method.allocation == SampleAllocation::splat;
     o.tiles = uses_tiles(method.allocation);
+    if (!uses_tiles(method.allocation)) o.branches = 2;
     o.seed = seed;
     o.threads = options_.threads;
     o.cancel = options_.cancel;

@@ -69,19 +69,21 @@ mc::RunIdentity render_identity(const RenderFingerprint& fingerprint, const rend
   mc::RunIdentity identity;
   for (const auto& [key, words] : compared) identity.emplace_back(words, fingerprint.at(key));
   for (const auto& [key, words] : noted) identity.emplace_back(words, fingerprint.at(key));
-  const bool is_adaptive = settings.adaptive.value_or(settings.seconds || settings.target_error);
-  const auto word = [](bool on) { return std::string(on ? "on" : "off"); };
+  const auto word = [](std::optional<bool> on) {
+    if (!on) return std::string("chosen");
+    return std::string(*on ? "on" : "off");
+  };
   identity.emplace_back("--strategy", settings.strategy.name);
-  identity.emplace_back("--branches", fmt::format("{}", settings.branches));
+  identity.emplace_back("--branches", settings.branches ? fmt::format("{}", *settings.branches) : "chosen");
   identity.emplace_back("the film's quantity", fmt::format("{}", static_cast<int>(settings.aov.kind)));
   identity.emplace_back("--splat", word(settings.splat));
   identity.emplace_back("--tiles", word(settings.tiles));
-  identity.emplace_back("--adaptive", word(is_adaptive));
-  if (is_adaptive)
+  identity.emplace_back("--adaptive", word(settings.adaptive));
+  if (settings.adaptive)
     identity.emplace_back("--error-of", settings.error_scope == render::ErrorScope::image ? "picture" : "worst");
-  // A plan, and the size of stratified sets, follow from the number of samples.
+  // The size of stratified sets follows from the number of samples.
   const bool is_counted = !settings.seconds && !settings.target_error;
-  const bool is_fixed = is_counted && (is_adaptive || settings.sampler == render::PixelSampler::stratified);
+  const bool is_fixed = is_counted && settings.sampler == render::PixelSampler::stratified;
   if (is_fixed || (is_counted && settings.spp == 1)) identity.emplace_back("--spp", fmt::format("{}", settings.spp));
   return identity;
 }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace render {
 
@@ -52,10 +53,10 @@ struct PartVariance {
   mc::VarianceSum all, independent; ///< From the point sets, and from samples taken as independent.
   int pixels = 0;
 
-  RelativeError error(double noise_area) const {
+  RelativeError error() const {
     if (all.value == 0) return {0, 0};
     double most = bound_of(all);
-    if (noise_area == 1 && std::isfinite(independent.value)) most = std::clamp(bound_of(independent), all.value, most);
+    if (std::isfinite(independent.value)) most = std::clamp(bound_of(independent), all.value, most);
     return {std::sqrt(all.value / pixels), std::sqrt(most / pixels)};
   }
 };
@@ -108,12 +109,6 @@ Eigen::Array3d SampleSums::jump() const {
   return (s2 > rounding * squares_mean && up > 0 && down > 0).select((up + down) * share, 0);
 }
 
-void LightSums::merge(const LightSums& other) {
-  squares += other.squares;
-  largest = std::max(largest, other.largest);
-  channel_largest = channel_largest.max(other.channel_largest);
-}
-
 Film::Film(int width, int height, int sets, FilmOptions options)
     : width_(width), height_(height), sets_(sets), options_(std::move(options)) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
@@ -121,10 +116,7 @@ Film::Film(int width, int height, int sets, FilmOptions options)
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   sums_.resize(pixels * static_cast<std::size_t>(sets), Eigen::Array3d::Zero());
   counts_.resize(sums_.size());
-  if (options_.splat) {
-    options_.noise_area = options_.splat->noise_area();
-    weights_.resize(sums_.size());
-  }
+  if (options_.splat) weights_.resize(sums_.size());
   const int reach = options_.splat ? options_.splat->reach() : 0;
   samples_.resize(sample_index(width + reach - 1, height + reach - 1) + 1);
   rays_.resize(pixels);
@@ -134,10 +126,10 @@ Film::Film(int width, int height, int sets, FilmOptions options)
   light_counts_.resize(static_cast<std::size_t>(sets));
 }
 
-void Film::add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count) {
+void Film::add(int x, int y, int set, const Eigen::Array3d& sum, double count) {
   const std::size_t i = index(x, y) * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set);
   sums_[i] += sum;
-  counts_[i] += count;
+  counts_[i] += static_cast<float>(count);
 }
 
 void Film::add_splat(int x, int y, int set, const Eigen::Array4d& sum) {
@@ -152,26 +144,24 @@ void Film::add_light_splat(int x, int y, int set, const Eigen::Array3d& value) {
   light_sums_[i].add(value);
 }
 
-void Film::add(const FilmBlock& block) {
-  for (const auto& [x, y, set, count, sum] : block.sums_) add(x, y, set, sum, count);
-  for (const auto& [x, y, set, sum] : block.splats_) add_splat(x, y, set, sum);
+void Film::add(const FilmBlock& block, Film* window) {
+  Film& splats = window ? *window : *this;
+  const auto row = [&](int y) { return window ? y % window->height_ : y; };
+  for (const auto& [x, y, set, count, sum] : block.sums_) splats.add(x, row(y), set, sum, count);
+  for (const auto& [x, y, set, sum] : block.splats_) splats.add_splat(x, row(y), set, sum);
   for (const auto& [x, y, set, value] : block.light_splats_) add_light_splat(x, y, set, value.cast<double>());
   for (const auto& [x, y, samples, rays] : block.records_) record_samples(x, y, samples, rays);
   add_light_rays(block.light_rays_);
 }
 
-void Film::merge(const Film& other) {
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    sums_[i] += other.sums_[i];
-    counts_[i] += other.counts_[i];
+void Film::take_row(Film& window, int y) {
+  const auto sets = static_cast<std::size_t>(sets_), count = static_cast<std::size_t>(width_) * sets;
+  const std::size_t to = index(0, y) * sets, from = index(0, y % window.height_) * sets;
+  for (std::size_t i = 0; i < count; ++i) {
+    sums_[to + i] += std::exchange(window.sums_[from + i], Eigen::Array3d::Zero());
+    counts_[to + i] += std::exchange(window.counts_[from + i], 0.0f);
+    weights_[to + i] += std::exchange(window.weights_[from + i], 0.0);
   }
-  for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] += other.weights_[i];
-  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].merge(other.samples_[i]);
-  for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i] += other.rays_[i];
-  for (std::size_t i = 0; i < light_.size(); ++i) light_[i] += other.light_[i];
-  for (std::size_t i = 0; i < light_sums_.size(); ++i) light_sums_[i].merge(other.light_sums_[i]);
-  for (std::size_t i = 0; i < light_counts_.size(); ++i) light_counts_[i] += other.light_counts_[i];
-  light_rays_ += other.light_rays_;
 }
 
 void Film::record_samples(int x, int y, const SampleSums& samples, std::uint64_t rays) {
@@ -193,30 +183,45 @@ Eigen::Array3d Film::set_sum(std::size_t first, std::size_t set) const {
       others += sums_[i];
       weight += weights_[i];
     }
-  return weight > 0 ? sums_[set] - (weights_[set] - counts_[set]) * (others / weight) : sums_[set];
+  return weight > 0 ? sums_[set] - (weights_[set] - double(counts_[set])) * (others / weight) : sums_[set];
 }
 
-Eigen::Array3d Film::squared_jump(int x, int y) const {
+Eigen::Array3d Film::squared_jump(int x, int y, double count) const {
   if (!options_.splat) return samples_[sample_index(x, y)].jump().square();
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   const int reach = options_.splat->reach();
   for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const SampleSums& samples = samples_[sample_index(x + dx, y + dy)];
+      if (samples.count < 2) continue;
+      sum += options_.splat->squared_weight(dx, dy) * (samples.jump() * (count / double(samples.count))).square();
+    }
+  return sum;
+}
+
+Eigen::Array3d Film::variance_of_independent(int x, int y) const {
+  if (!options_.splat) return samples_[sample_index(x, y)].variance_of_mean();
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  const int reach = options_.splat->reach();
+  for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
-      sum += options_.splat->squared_weight(dx, dy) * samples_[sample_index(x + dx, y + dy)].jump().square();
+      sum += options_.splat->squared_weight(dx, dy) * samples_[sample_index(x + dx, y + dy)].variance_of_mean();
   return sum;
 }
 
 PixelEstimate Film::estimate(int x, int y) const {
   const auto sets = static_cast<std::size_t>(sets_), first = index(x, y) * sets;
   PixelEstimate pixel;
+  double count = 0;
   for (std::size_t i = first; i < first + sets; ++i) {
-    pixel.samples += counts_[i];
+    count += double(counts_[i]);
     pixel.sets += counts_[i] > 0;
   }
-  if (pixel.samples == 0) return pixel;
+  pixel.samples = static_cast<std::uint64_t>(std::llround(count));
+  if (count == 0) return pixel;
   const auto own = mean_of(
-      sets, [&](std::size_t i) { return set_sum(first, first + i); }, [&](std::size_t i) { return counts_[first + i]; },
-      squared_jump(x, y));
+      sets, [&](std::size_t i) { return set_sum(first, first + i); },
+      [&](std::size_t i) { return double(counts_[first + i]); }, squared_jump(x, y, count));
   pixel.mean = own.mean;
   const SampleSums& samples = samples_[sample_index(x, y)];
   const bool by_samples = options_.independent_samples && !options_.splat && pixel.sets > 1;
@@ -233,7 +238,7 @@ PixelEstimate Film::estimate(int x, int y) const {
 
 Image Film::image() const {
   Image image(width_, height_);
-  image.noise_area = options_.noise_area;
+  image.noise_area = noise_area();
   image.variance.resize(image.pixels.size());
   bool known = true;
   for (int y = 0; y < height_; ++y)
@@ -263,18 +268,18 @@ RelativeErrors Film::relative_errors(const Image& image) const {
           if (!(pixel.variance > 0).any()) continue;
           const Eigen::Array3d unit = around(image, x, y).max(mean / 2).square();
           const double relative = (pixel.variance / unit).mean();
-          const Eigen::Array3d of_samples = samples_[sample_index(x, y)].variance_of_mean() + pixel.light_variance;
+          const Eigen::Array3d of_samples = variance_of_independent(x, y) + pixel.light_variance;
           const double relative_of_samples = (of_samples / unit).mean(), dof = effective_sample_count(x, y);
           for (PartVariance* part : {&picture, &block}) {
-            part->all.add(relative, pixel.sets - 1, options_.noise_area);
-            part->independent.add(relative_of_samples, dof);
+            part->all.add(relative, pixel.sets - 1, noise_area());
+            part->independent.add(relative_of_samples, dof, noise_area());
           }
         }
-      const RelativeError error = block.error(options_.noise_area);
+      const RelativeError error = block.error();
       errors.worst_block = {std::max(errors.worst_block.value, error.value),
                             std::max(errors.worst_block.bound, error.bound)};
     }
-  errors.image = picture.error(options_.noise_area);
+  errors.image = picture.error();
   return errors;
 }
 

@@ -37,7 +37,6 @@ struct LightSums {
     largest = std::max(largest, y);
     channel_largest = channel_largest.max(value);
   }
-  void merge(const LightSums& other); ///< Adds the statistics of other contributions.
   /// The sums, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) { a(squares, largest, channel_largest); }
 };
@@ -100,8 +99,8 @@ struct PixelEstimate {
 
 /// Mean relative standard error of pixels, with an upper bound of 95 % confidence. The estimate itself is uncertain: a
 /// few pixels may contribute most of the noise, and each estimates its variance from two point sets. A second bound
-/// uses the samples as if independent, with SampleSums::effective_sample_count as degrees of freedom. If the noise area
-/// is 1, the smaller bound counts.
+/// uses the samples as if independent, with SampleSums::effective_sample_count as degrees of freedom. The smaller bound
+/// counts. Pixels that share noise count for one.
 struct RelativeError {
   double value = mc::infinity<double>, ///< The estimate.
       bound = mc::infinity<double>;    ///< Upper bound with 95 % confidence.
@@ -127,7 +126,7 @@ struct RelativeErrors {
 struct FilmOptions {
   std::optional<SplatFilter> splat = {}; ///< Filter of splatting; none: each sample counts for one pixel.
   bool has_light_paths = false;          ///< Whether light paths contribute; they need further sums for each pixel.
-  /// Noise area of samples that share paths (see Image); with splats, their noise area replaces it.
+  /// Noise area of samples that share paths (see Image); with splats, theirs multiplies it.
   double noise_area = 1;
   bool independent_samples = false; ///< Whether the samples of a pixel are independent.
 };
@@ -149,8 +148,9 @@ class Film {
   /// Whether the film contains the pixel (x, y).
   bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
 
-  /// Adds the sum of `count` samples to a point set of a pixel.
-  void add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count);
+  /// Adds the sum of `count` samples to a point set of a pixel. The count of splats need not be whole: samples of a
+  /// pixel that takes more or fewer than others are weighted, so that they count as often as those of others.
+  void add(int x, int y, int set, const Eigen::Array3d& sum, double count);
 
   /// Adds splats to a point set of a pixel, from samples of this pixel or another. `sum` contains the sums of weighted
   /// radiance and of weights. The weights average 1 over the samples of the pixel.
@@ -165,17 +165,21 @@ class Film {
   /// Adds to the number of rays of light paths.
   void add_light_rays(std::uint64_t rays) { light_rays_ += rays; }
 
+  /// Sets the noise area of samples that share paths; see FilmOptions.
+  void set_noise_area(double pixels) { options_.noise_area = pixels; }
+
   /// Adds the samples of a block of a film with the same size and sets.
-  void add(const FilmBlock& block);
+  ///   window : takes the splats and their counts, if it is there. It is a film of the same width and sets, with fewer
+  ///            rows, which take turns: row y of the block is row y modulo its height.
+  void add(const FilmBlock& block, Film* window = nullptr);
+  /// Adds the splats of row y in a window, and their counts, and clears them there.
+  void take_row(Film& window, int y);
   /// The sums, see mc/run/archive.h. A film is read into one with the same size, sets and options.
   template <class Archive> void archive(Archive& a) {
     using mc::fixed_size;
     a(fixed_size(sums_), fixed_size(counts_), fixed_size(weights_), fixed_size(samples_), fixed_size(rays_),
       fixed_size(light_), fixed_size(light_sums_), fixed_size(light_counts_), light_rays_);
   }
-
-  /// Adds the samples of another film with the same size, sets and options.
-  void merge(const Film& other);
 
   /// Adds the statistics of a pixel's samples and the number of rays that they took. With splats the pixel may lie
   /// within the filter's reach outside the film.
@@ -192,7 +196,7 @@ class Film {
   ///   splats   : the weights vary about 1, so a constant radiance would have noise. Therefore n_s m_s is the sum of
   ///              the set minus c (w_s - n_s). w_s is the sum of the set's weights and c the weighted mean of the other
   ///              sets. c does not depend on w_s, so the mean is unbiased. J^2 is the sum over the pixels nearby, times
-  ///              the mean squared weights of their samples.
+  ///              the mean squared weights of their samples. n_s is the count of add().
   ///   light paths : their mean and their variance, found in the same way, are added.
   PixelEstimate estimate(int x, int y) const;
   /// Number of rays of the pixel's own samples.
@@ -218,11 +222,18 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  // J^2 of estimate(). With splats: the sum over the pixels nearby, each times the square of its weight.
-  Eigen::Array3d squared_jump(int x, int y) const;
+  // J^2 of estimate(). With splats: the sum over the pixels nearby, each times the square of the weight of its samples,
+  // of which the pixel's sums contain `count`.
+  Eigen::Array3d squared_jump(int x, int y, double count) const;
+
+  // Variance of a pixel if all samples were independent, without light paths.
+  Eigen::Array3d variance_of_independent(int x, int y) const;
 
   // Sum of a point set of a pixel. The pixel's sets start at `first`.
   Eigen::Array3d set_sum(std::size_t first, std::size_t set) const;
+
+  // Of samples that share paths and are splatted.
+  double noise_area() const { return options_.noise_area * (options_.splat ? options_.splat->noise_area() : 1); }
 
   // Index into samples_, which include the pixels within reach outside the film.
   std::size_t sample_index(int x, int y) const {
@@ -239,10 +250,10 @@ class Film {
 
   int width_, height_, sets_;
   FilmOptions options_;
-  std::vector<Eigen::Array3d> sums_;  ///< Radiance sums: sets_ entries for each pixel.
-  std::vector<std::uint32_t> counts_; ///< Sample counts, in the same order.
-  std::vector<double> weights_;       ///< Sums of splat weights, in the same order; empty without splats.
-  std::vector<SampleSums> samples_;   ///< By sample_index().
+  std::vector<Eigen::Array3d> sums_; ///< Radiance sums: sets_ entries for each pixel.
+  std::vector<float> counts_;        ///< Sample counts, in the same order.
+  std::vector<double> weights_;      ///< Sums of splat weights, in the same order; empty without splats.
+  std::vector<SampleSums> samples_;  ///< By sample_index().
   std::vector<std::uint64_t> rays_;
   std::vector<Eigen::Array3d> light_; ///< Light path sums, in the order of sums_; empty without light paths.
   std::vector<LightSums> light_sums_; ///< One entry for each pixel.

@@ -21,9 +21,7 @@ class FilmBlock {
   bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
 
   /// As Film::add().
-  void add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count) {
-    sums_.push_back({x, y, set, count, sum});
-  }
+  void add(int x, int y, int set, const Eigen::Array3d& sum, double count) { sums_.push_back({x, y, set, count, sum}); }
   /// As Film::add_splat().
   void add_splat(int x, int y, int set, const Eigen::Array4d& sum) { splats_.push_back({x, y, set, sum}); }
   /// As Film::add_light_splat().
@@ -45,7 +43,7 @@ class FilmBlock {
 
   struct SetSum {
     int x, y, set;
-    std::uint32_t count;
+    double count;
     Eigen::Array3d sum;
     template <class Archive> void archive(Archive& a) { a(x, y, set, count, sum); }
   };

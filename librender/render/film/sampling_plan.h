@@ -8,14 +8,15 @@ namespace render {
 /// Number of samples of each pixel and of light paths, relative to a uniform distribution.
 struct SamplingPlan {
   std::vector<float> rates = {}; ///< Rate of each pixel, row by row from the top, with mean 1; empty: all 1.
+  double even = 0;               ///< Samples of every pixel to which the rates do not apply.
   double light_path_scale = 1;   ///< Number of light paths relative to the plan without adaption.
 
   /// The plan, see mc/run/archive.h.
-  template <class Archive> void archive(Archive& a) { a(rates, light_path_scale); }
+  template <class Archive> void archive(Archive& a) { a(rates, even, light_path_scale); }
 
   /// Number of samples of a pixel for `mean` samples per pixel over the image.
   std::uint32_t samples(std::size_t pixel, double mean) const {
-    return static_cast<std::uint32_t>(std::lround(rates.empty() ? mean : mean * double(rates[pixel])));
+    return static_cast<std::uint32_t>(std::lround(rates.empty() ? mean : even + (mean - even) * double(rates[pixel])));
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace {
 
 using namespace render;
@@ -44,6 +46,29 @@ TEST(FilmBlock, AddsTheSamplesOfAFilm) {
     empty(Film(3, 2, 2, options));
     EXPECT_NE(found.text(), empty.text());
   }
+}
+
+// Rows that take turns in a window end in the film as if they had been added to it.
+TEST(FilmBlock, RowsOfAWindow) {
+  const FilmOptions options{.splat = SplatFilter(Filter(GaussianFilter()))};
+  Film direct(2, 7, 2, options), film(2, 7, 2, options), window(2, 3, 2, options);
+  for (int y = 0; y < 9; ++y) { // the rows y - 2, y - 1 and y of the film, of which the first one is complete
+    FilmBlock block(2, 7, 2);
+    for (int row = std::max(y - 2, 0); row <= std::min(y, 6); ++row) {
+      block.add_splat(1, row, 0, Eigen::Array4d(y, 2 * y, row, 1));
+      block.add(1, row, 0, Eigen::Array3d::Zero(), 0.5);
+    }
+    direct.add(block);
+    film.add(block, &window);
+    if (y >= 2) film.take_row(window, y - 2);
+  }
+  mc::ArchiveWriter expected, found, rest, nothing;
+  expected(direct);
+  found(film);
+  EXPECT_EQ(found.text(), expected.text());
+  rest(window);
+  nothing(Film(2, 3, 2, options));
+  EXPECT_EQ(rest.text(), nothing.text());
 }
 
 TEST(FilmBlock, ContainsThePixelsOfItsFilm) {

@@ -136,9 +136,6 @@ TEST(InterruptedRender, SplatFilter_KeepsBrightness) {
     EXPECT_TRUE(cut.image.variance.empty());
     for (const Spectrum& p : cut.image.pixels) EXPECT_LE(double((p - sky).abs().maxCoeff()), 1e-6);
   }
-  options.threads = 1;
-  options.spp = 1; // a single set cannot correct for missing splats
-  EXPECT_EQ(interrupted(scene, options).missing_rows, 64);
 }
 
 } // namespace

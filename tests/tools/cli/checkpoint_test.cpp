@@ -31,8 +31,8 @@ const std::string cbox_file = MC_SOURCE_DIR "/librender/scenes/cbox.xml";
 const std::vector<KilledLine> killed_commands = {
     {"render", "render cbox --size 24x24 --spp 37 --intervals OUT.pfm -o OUT.exr", {".exr", ".pfm"}},
     {"adaptive", "render cbox --size 24x20 --spp 40 --adaptive on -o OUT.exr", {".exr"}},
-    {"splat", "render cbox --size 20x20 --spp 11 --splat -o OUT.exr", {".exr"}},
-    {"tiles", "render cbox --size 31x20 --crop 3,1,21,18 --spp 40 --tiles --adaptive on -o OUT.exr", {".exr"}},
+    {"splat", "render cbox --size 20x20 --spp 11 --splat on -o OUT.exr", {".exr"}},
+    {"tiles", "render cbox --size 31x20 --crop 3,1,21,18 --spp 40 --tiles on --adaptive on -o OUT.exr", {".exr"}},
     {"stratified", "render cbox --size 16x16 --spp 30 --sampler stratified --strategy nee -o OUT.exr", {".exr"}},
     {"gallery", "gallery cbox smallpt --scale 0.03 --spp 8 -o OUT", {"/cbox.exr", "/smallpt.exr", "/sheet.png"}},
     {"validate", "validate Linear Tent CosineHemisphere --samples 5000 --json OUT.json --report OUT", {".json"}},

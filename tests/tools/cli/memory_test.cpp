@@ -119,7 +119,7 @@ TEST_F(MemoryOfCommands, HugeFiles_AreRefused) {
 TEST_F(MemoryOfCommands, PeakOfPictures_IsAsStated) {
   const std::string render = "render " + cbox + " --size 1024x1024 --spp 2 --max-depth 1 -o a.exr";
   expect_peak_as_stated(render);
-  expect_peak_as_stated(render + " --splat");
+  expect_peak_as_stated(render + " --splat on");
   expect_peak_as_stated(render + " --checkpoint a.ckpt");
 }
 

@@ -29,10 +29,10 @@ struct PartsLine {
 };
 
 const std::vector<PartsLine> parts_lines = {
-    {"render", "render cbox --size 24x24 --spp 37 --intervals OUT.pfm", "-o OUT.exr", 1, {".exr", ".pfm"}},
-    {"adaptive", "render cbox --size 24x20 --spp 40 --adaptive on", "-o OUT.exr", 2, {".exr"}},
+    {"render", "render cbox --size 24x24 --spp 37 --intervals OUT.pfm", "-o OUT.exr", 2, {".exr", ".pfm"}},
+    {"even", "render cbox --size 24x20 --spp 40 --adaptive off", "-o OUT.exr", 1, {".exr"}},
     {"target", "render cbox --size 16x16 --target-error 0.1", "-o OUT.exr", 20, {".exr"}},
-    {"splat", "render cbox --size 20x20 --spp 11 --splat", "-o OUT.exr", 1, {".exr"}},
+    {"splat", "render cbox --size 20x20 --spp 11 --splat on", "-o OUT.exr", 1, {".exr"}},
     {"gallery",
      "gallery cbox smallpt smallpt-nee --scale 0.03 --spp 8",
      "-o OUT",

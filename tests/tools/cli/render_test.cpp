@@ -44,12 +44,13 @@ TEST_F(RenderCommand, BadInput_IsReportedInOneLine) {
   expect_refused(cbox() + " --target-error 0", {"target error of 0"});
   expect_refused(cbox() + " --target-error 0.1 --error-of wurst", {"--error-of 'wurst'", "picture or worst"});
   expect_refused(cbox() + " --adaptive perhaps", {"--adaptive 'perhaps'", "on or off"});
+  expect_refused(cbox() + " --splat maybe", {"--splat 'maybe'", "on or off"});
   expect_refused(cbox() + " --sampler sobl", {"'sobl'", "did you mean 'sobol'"});
   expect_refused(cbox() + " --strategy miss", {"'miss'", "did you mean 'mis'"});
   expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
   expect_refused(cbox() + " --branches 0", {"--branches 0 must be 1 to 1024"});
   expect_refused(cbox() + " --branches 1025", {"--branches 1025 must be 1 to 1024"});
-  expect_refused(cbox() + " --branches 2 --tiles", {"--branches", "--tiles"});
+  expect_refused(cbox() + " --branches 2 --tiles on", {"--branches", "--tiles on"});
   expect_refused(cbox() + " --spp 1 --intervals " + path("w.pfm"), {"--intervals", "two or more"});
   expect_refused(cbox() + " --intervals " + path("./out.pfm"), {"--intervals", "out.pfm", "would both write"});
   expect_refused(scenes + "cbox.xml -o nowhere.exr --intervals ./nowhere.exr", {"--intervals", "would both write"});

@@ -1,4 +1,4 @@
-#include <render/film/splat_accumulator.h>
+#include <render/film/pixel_samples.h>
 
 #include <mc/estimate/moments.h>
 #include <mc/random/pcg.h>
@@ -29,7 +29,8 @@ const std::array splat_rows = {SplatRow{"wide box", BoxFilter(Float(1.5)), 0.75}
 PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
   Film film(1, 1, 4, {.splat = filter});
   FilmBlock block(1, 1, 4);
-  SplatAccumulator splat(filter);
+  const std::optional splats(filter);
+  PixelSamples pixel(splats);
   const int around = filter.reach() + 1;
   for (int y = -around; y <= around; ++y)
     for (int x = -around; x <= around; ++x)
@@ -37,10 +38,9 @@ PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
         for (int i = 0; i < n; ++i) {
           const Vec2 offset(random.uniform<Float>() - Float(0.5), random.uniform<Float>() - Float(0.5));
           const Float px = Float(x) + offset[0], py = Float(y) + offset[1];
-          splat.add(offset, Spectrum(1 + px * px + py, 5, px));
+          pixel.add(offset, Spectrum(1 + px * px + py, 5, px));
         }
-        splat.flush_to(block, x, y, set);
-        if (x == 0 && y == 0) block.add(0, 0, set, Eigen::Array3d::Zero(), static_cast<std::uint32_t>(n));
+        pixel.end_set(block, x, y, set);
       }
   film.add(block);
   return film.estimate(0, 0);
@@ -49,7 +49,7 @@ PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
 // Splats give the filtered image without bias for every filter, with a valid error bar; a constant channel has no
 // noise. With 3,000 pixels alpha is 0.006 % for each mean. The variances are accurate to 3 %, and their bound is five
 // times that.
-TEST(SplatAccumulator, PixelsAreFilteredWithoutBias) {
+TEST(PixelSamples, PixelsAreFilteredWithoutBias) {
   mc::Pcg random(8);
   for (const SplatRow& row : splat_rows) {
     const SplatFilter filter(row.filter);
@@ -71,21 +71,21 @@ TEST(SplatAccumulator, PixelsAreFilteredWithoutBias) {
 }
 
 // A single set is unbiased, too, although no other set corrects its weights.
-TEST(SplatAccumulator, SingleSet_IsUnbiased) {
+TEST(PixelSamples, SingleSet_IsUnbiased) {
   mc::Pcg random(4);
   const SplatFilter filter{Filter(GaussianFilter())};
   mc::Moments means;
   for (int i = 0; i < 20'000; ++i) {
     Film film(1, 1, 1, {.splat = filter});
     FilmBlock block(1, 1, 1);
-    SplatAccumulator splat(filter);
+    const std::optional splats(filter);
+    PixelSamples pixel(splats);
     for (int y = -2; y <= 2; ++y)
       for (int x = -2; x <= 2; ++x) {
-        splat.add(Vec2(random.uniform<Float>() - Float(0.5), random.uniform<Float>() - Float(0.5)),
+        pixel.add(Vec2(random.uniform<Float>() - Float(0.5), random.uniform<Float>() - Float(0.5)),
                   Spectrum::Constant(Float(x + y + 3)));
-        splat.flush_to(block, x, y, 0);
+        pixel.end_set(block, x, y, 0);
       }
-    block.add(0, 0, 0, Eigen::Array3d::Zero(), 1);
     film.add(block);
     means.add(film.estimate(0, 0).mean[0]);
   }
