@@ -30,7 +30,7 @@ def run(build, program, *arguments, folder=ROOT):
 
 def numbers(build):
     """Times of random numbers and points: bench_speed."""
-    text = run(build, "bench_speed", "--benchmark_filter=normal|exponential|Sobol 4-D|Halton dims 0")
+    text = run(build, "bench_speed", "--benchmark_filter=^normal|^exponential|Sobol 4-D|Halton dims 0")
     if "GSL" not in text:
         print("numbers: GSL is absent; its rows are left out", file=sys.stderr)
     yield ["number", "ns", "ns in batches"]
@@ -59,7 +59,7 @@ def rays(build):
 def default(build):
     """What a render without options gains over even sampling: bench_render_adaptive."""
     scenes = [os.path.join(ROOT, "librender", "scenes", name + ".xml") for name in SCENES]
-    text = run(build, "bench_render_adaptive", *scenes, "--", "8", "64", "64", "4096")
+    text = run(build, "bench_render_adaptive", *scenes, "--", "8", "48", "64", "2048")
     rows = {}
     for row in csv.DictReader(io.StringIO(text)):
         rows.setdefault(row["scene"], {})[row["spending"]] = row

@@ -95,21 +95,21 @@ void show(const std::string& path, int seeds, int size, int spp, int reference_s
   options.max_depth = file.defaults.max_depth;
   options.spp = reference_spp;
   options.seed = 1'000'000;
-  options.adaptive = true;
   const Image truth = render::render(file.scene, options).image;
   options.spp = spp;
   std::array<Spending, 5> all = {{{"even"}, {"adaptive"}, {"tiles"}, {"splat"}, {"default"}}};
   const Spending& even = all[0];
   for (std::size_t i = 0; i < all.size() * std::size_t(seeds); ++i) { // alternately, each with its own seeds
     const std::size_t way = i % all.size();
-    options = {.width = options.width, .height = options.height, .spp = spp, .max_depth = options.max_depth, .seed = i};
-    if (way < 4) {
-      options.adaptive = way == 1;
-      options.tiles = way == 2;
-      options.splat = way == 3;
-      if (way != 2) options.branches = 2;
+    RenderOptions own = options;
+    own.seed = i;
+    if (way < 4) { // one switch, or none
+      own.adaptive = way == 1;
+      own.tiles = way == 2;
+      own.splat = way == 3;
+      if (way != 2) own.branches = 2;
     }
-    all[way].add(render::render(file.scene, options), truth);
+    all[way].add(render::render(file.scene, own), truth);
   }
   for (const Spending& one : all) {
     const Spending* s = &one;

@@ -98,7 +98,7 @@ double memory_needed(const Scene& scene, const RenderOptions& options);
 ///   adaptive : the first 16 samples per pixel, or about a quarter with `seconds` or `target_error`, are an even pilot,
 ///              which alone determines all later rates; see adaptive_plan(). The later part of the pilot also tries how
 ///              to trace paths, as far as the options leave it open: with one branch, with two, and in tiles. Each
-///              block of 8x8 pixels takes one of them, in turn. Later samples take the one with the least product of
+///              block of 4x4 pixels takes one of them, in turn. Later samples take the one with the least product of
 ///              rays and squared mean of relative standard errors.
 ///   throws  : Error for a size, sample count, time or error that is not positive. Error for a crop that is not inside
 ///             the image. Error for options that exclude each other, and for a depth or number of branches out of

@@ -73,8 +73,9 @@ double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool ha
 constexpr double pilot_samples = 16;
 constexpr double least_rate = 0.25; ///< Of a pixel, relative to the mean, since a pilot may miss features.
 
-// Width and height of the blocks of a pilot that take one way [pixels]; a multiple of the side of a tile.
-constexpr int pilot_block = 8;
+// Width and height of the blocks of a pilot that take one renderer [pixels]; a multiple of the side of a tile. Small,
+// so that all renderers get a fair share of the picture.
+constexpr int pilot_block = 4;
 
 // None for a filter so narrow that pixels share nothing, or so wide that splats would take longer than paths; nor for
 // one sample per pixel, whose weights no other point set corrects.
@@ -196,10 +197,10 @@ std::vector<RenderJob::Renderer> RenderJob::renderers_for(const Scene& scene) co
   return all;
 }
 
-// Of a pixel, counted from the border. Few samples take one renderer for all pixels.
+// Of a pixel, counted from the border. The first pass takes one renderer: cut short, it leaves whole rows.
 std::size_t RenderJob::renderer_of(std::size_t row, std::size_t column) const {
   if (chosen_ != undecided) return chosen_;
-  if (mean_ < pilot_samples / 2) return 0;
+  if (mean_ == 0) return 0;
   const auto block = [&](std::size_t at, int first) { // the offset keeps it positive
     const int shift = pilot_block * (SplatFilter::max_radius + 1);
     return static_cast<std::size_t>((static_cast<int>(at) + first - static_cast<int>(border()) + shift) / pilot_block);
@@ -236,7 +237,7 @@ double RenderJob::noise_area() const {
   constexpr double of_tiles = PathReuseIntegrator<Scene>::noise_area;
   if (!tile_renderer()) return 1;
   if (chosen_ == renderers_.size() - 1) return of_tiles;
-  const double tried = std::max((is_pilot_ ? mean_ : pilot_mean_) - pilot_samples / 2, 0.0);
+  const double tried = std::max((is_pilot_ ? mean_ : pilot_mean_) - film_.sets(), 0.0); // after the first pass
   return 1 + (of_tiles - 1) * tried / (std::max(mean_, 1.0) * double(renderers_.size()));
 }
 

@@ -28,7 +28,8 @@ def test_the_bits_are_those_of_carlo(carlo, tmp_path):
 
 
 def test_seeds_agree_and_scenes_differ():
-    a, b = (libmc.render("cbox", seed=seed, **SMALL) for seed in (1, 2))
+    # Pixels that share no noise, so that few of them tell the difference.
+    a, b = (libmc.render("cbox", seed=seed, splat=False, adaptive=False, **SMALL) for seed in (1, 2))
     same = libmc.compare(a, b)
     assert same and same.agrees and same.p >= same.alpha
     assert set(same.metrics) == {"mse", "rmse", "mae", "relmse", "max", "mean_ratio"}

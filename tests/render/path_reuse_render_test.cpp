@@ -128,7 +128,7 @@ TEST(PathReuseRender, PilotChoosesTilesWhereTheyPay) {
   options.height = 40;
   options.spp = 64;
   EXPECT_EQ(render::render(corner(), options).image.noise_area, 4);
-  EXPECT_EQ(render::render(balls(), options).image.noise_area, 1.125) << "a third of half the pilot";
+  EXPECT_EQ(render::render(balls(), options).image.noise_area, 1.21875) << "a third of 14 of 64 samples";
   options.tiles = false;
   EXPECT_EQ(render::render(corner(), options).image.noise_area, 1);
   options.tiles.reset();
