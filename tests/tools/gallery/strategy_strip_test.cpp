@@ -69,8 +69,8 @@ TEST(StrategyStrip, TableComparesEqualSamplesAndEqualTime) {
   const auto time = carlo::compare_strategies_for_time(scene, settings, 0.005);
   ASSERT_EQ(samples.size(), 7u);
   ASSERT_EQ(time.size(), 7u);
-  for (const auto& s : samples) EXPECT_EQ(s.spp, 64) << s.name;
-  for (const auto& t : time) EXPECT_GE(t.spp, 2) << t.name; // a variance needs two
+  for (const auto& s : samples) EXPECT_NEAR(s.spp, 64, 0.5) << s.name; // adaptive rates are rounded to whole samples
+  for (const auto& t : time) EXPECT_GE(t.spp, 2) << t.name;            // a variance needs two
   const std::string text = carlo::strategy_table(samples, time);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 8);
   for (const auto& s : samples) EXPECT_THAT(text, HasSubstr("\n" + std::string(s.name) + " "));
