@@ -328,12 +328,12 @@ void RenderJob::make_plan() {
   std::vector<float> rates;
   rates.reserve(taken_.size());
   const auto inside = [&](std::size_t at, int size) {
-    return std::clamp(static_cast<int>(at) - static_cast<int>(border()), 0, size - 1);
+    return std::min(std::max(at, border()) - border(), static_cast<std::size_t>(size) - 1);
   };
   for (std::size_t y = 0; y < height(); ++y)
     for (std::size_t x = 0; x < width(); ++x)
       rates.push_back(
-          plan_.rates[static_cast<std::size_t>(inside(y, film_.height()) * film_.width() + inside(x, film_.width()))]);
+          plan_.rates[inside(y, film_.height()) * static_cast<std::size_t>(film_.width()) + inside(x, film_.width())]);
   const double mean = std::accumulate(rates.begin(), rates.end(), 0.0) / double(rates.size());
   for (float& rate : rates) rate = static_cast<float>(double(rate) / mean);
   plan_.rates = std::move(rates);
