@@ -48,10 +48,10 @@ def rays(build):
     if text is None:
         print("rays: Embree is absent; the table is skipped", file=sys.stderr)
         return
-    yield ["world", "rays", "Mrays/s", "over Embree"]
-    yield ["---"] * 4
+    yield ["world", "rays", "Mrays/s", "over Embree", "hits", "Embree's hits"]
+    yield ["---"] * 6
     for line in text.splitlines():
-        row = re.match(r"(.{16}) (primary|bounce|shadow) +([\d.]+) +([\d.]+)", line)
+        row = re.match(r"(.{16}) (primary|bounce|shadow) +([\d.]+) +([\d.]+) +([\d.]+) +([\d.]+)", line)
         if row:
             yield [column.strip() for column in row.groups()]
 

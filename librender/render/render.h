@@ -43,7 +43,8 @@ struct RenderOptions {
   bool adaptive = true; ///< Whether to sample adaptively, after the first 16 samples of every pixel.
   Strategy strategy = strategy_from("mis+lt"); ///< How paths find light.
   PixelSampler sampler = PixelSampler::sobol;  ///< Point sets of pixels.
-  /// Whether samples count for all pixels under the filter (SplatFilter). A filter as narrow as a pixel has no splats.
+  /// Whether samples count for all pixels under the filter (SplatFilter). Not for filters as narrow as a pixel or wider
+  /// than SplatFilter::max_radius, nor with one sample per pixel.
   bool splat = true;
   /// Whether pixels share paths in tiles; see PathReuseIntegrator. None: if the pilot of adaptive sampling favours it.
   std::optional<bool> tiles;
@@ -96,10 +97,9 @@ double memory_needed(const Scene& scene, const RenderOptions& options);
 ///                neighbouring pixels already add estimates of the variance.
 ///   light paths : their number belongs to the mean number of samples per pixel. They are dealt to the point sets, too.
 ///   adaptive : the first 16 samples per pixel, or about a quarter with `seconds` or `target_error`, are an even pilot,
-///              which alone determines all later rates; see adaptive_plan(). The later part of the pilot also tries how
-///              to trace paths, as far as the options leave it open: with one branch, with two, and in tiles. Each
-///              block of 4x4 pixels takes one of them, in turn. Later samples take the one with the least product of
-///              rays and squared mean of relative standard errors.
+///              which alone determines all later rates; see adaptive_plan(). From the third sample on the pilot also
+///              tries how to trace paths, as far as the options leave it open: with one branch, with two, and in tiles;
+///              see RendererChoice.
 ///   throws  : Error for a size, sample count, time or error that is not positive. Error for a crop that is not inside
 ///             the image. Error for options that exclude each other, and for a depth or number of branches out of
 ///             range. Error for a strategy that cannot find every light of the scene (finds_all_lights). MemoryError

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace render {
 
@@ -55,8 +54,7 @@ int sets_of(const RenderOptions& options) {
 // Bytes of a pixel: sums of each point set and of all samples, counts, and the image. A checkpoint takes the sums once
 // more, twice while it is written.
 double bytes_per_pixel(const RenderOptions& options, bool has_light_paths, bool has_splats) {
-  constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(std::uint32_t),
-                   bytes_of_light_sums = sizeof(Eigen::Array3d);
+  constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(float), bytes_of_light_sums = sizeof(Eigen::Array3d);
   const double sets = sets_of(options);
   double film = sizeof(SampleSums) + sizeof(std::uint64_t) + sets * bytes_of_set;
   if (has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
@@ -72,10 +70,6 @@ double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool ha
 // Least number of samples per pixel of a pilot.
 constexpr double pilot_samples = 16;
 constexpr double least_rate = 0.25; ///< Of a pixel, relative to the mean, since a pilot may miss features.
-
-// Width and height of the blocks of a pilot that take one renderer [pixels]; a multiple of the side of a tile. Small,
-// so that all renderers get a fair share of the picture.
-constexpr int pilot_block = 4;
 
 // None for a filter so narrow that pixels share nothing, or so wide that splats would take longer than paths; nor for
 // one sample per pixel, whose weights no other point set corrects.
@@ -114,6 +108,12 @@ int repeat_rows(const Film& film, Image& image) {
 
 constexpr std::uint64_t samples_of_unit = 1 << 17; ///< About, of a unit of pixels: less than a second.
 
+// Row or column, in its tile, of the first pixel of the border; `at` is that of the film's first pixel.
+std::size_t place_of_border(int at, const Tiling& tiles, std::size_t border) {
+  const auto side = static_cast<std::size_t>(tiles.side);
+  return (static_cast<std::size_t>(at) + side * border - border) % side;
+}
+
 // Rows in the order of their units. Rows that write to common pixels stand in different turns, in an order that does
 // not depend on the crop. Within a turn, each row is in the middle of the widest gap, so that a cancelled first pass
 // covers the whole image.
@@ -121,10 +121,10 @@ constexpr std::uint64_t samples_of_unit = 1 << 17; ///< About, of a unit of pixe
 //   tiles  : the position of the film's pixels in tiles; rows of a tile are rendered with its first row.
 std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border, const Tiling& tiles) {
   std::vector<std::uint32_t> order;
-  const auto side = static_cast<std::size_t>(tiles.side);
   // Rows of a tile above the border; the tile has their turn.
-  const std::size_t above = (static_cast<std::size_t>(tiles.y) + side * border - border) % side;
-  const std::size_t height = static_cast<std::size_t>(crop.height) + 2 * border + above, turns = 2 * border + side;
+  const std::size_t above = place_of_border(tiles.y, tiles, border);
+  const std::size_t height = static_cast<std::size_t>(crop.height) + 2 * border + above,
+                    turns = 2 * border + static_cast<std::size_t>(tiles.side);
   for (std::size_t turn = 0; turn < turns; ++turn) {
     const std::size_t first = (turn + turns - (static_cast<std::size_t>(crop.y) + turns - above) % turns) % turns;
     const std::size_t rows = (height + turns - 1 - first) / turns, size = std::bit_ceil(std::max(rows, 2ul));
@@ -153,10 +153,9 @@ double memory_needed(const Scene& scene, const RenderOptions& options) {
 RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
     : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(checked(scene, options), options)),
       light_tracer_(light_tracer_for(scene, options)), points_(options.sampler, options.seed, set_size_of(options)),
-      renderers_(renderers_for(scene)),
-      row_order_(row_order(extent_.crop, border(), tile_renderer() ? tile_renderer()->tiling() : Tiling{})),
-      film_(checked_film()), taken_(width() * height()), next_taken_(taken_.size()), is_pilot_(options.adaptive),
-      chosen_(renderers_.size() == 1 ? 0 : undecided) {
+      renderers_(scene, options, points_, extent_, splat_, light_tracer()),
+      row_order_(row_order(extent_.crop, border(), renderers_.any_tiling())), film_(checked_film()),
+      taken_(width() * height()), next_taken_(taken_.size()) {
   film_.set_noise_area(noise_area());
   if (light_tracer_)
     light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
@@ -178,67 +177,10 @@ bool RenderJob::is_end_of_pilot(double mean, double wanted) const {
   return mean >= pilot_samples && (!is_limited() || mean >= wanted / 6);
 }
 
-// Without a pilot, what the options leave open is decided here.
-std::vector<RenderJob::Renderer> RenderJob::renderers_for(const Scene& scene) const {
-  std::vector<Renderer> all;
-  const bool is_open = options_.adaptive && options_.aov.kind == Aov::radiance && !options_.branches;
-  const auto add = [&](int branches) {
-    all.emplace_back(std::in_place_type<PixelRenderer>, scene,
-                     PathOptions{options_.strategy, options_.max_depth, branches}, points_, extent_, splat_,
-                     light_tracer(), options_.aov);
-  };
-  if (!options_.tiles.value_or(false)) {
-    add(options_.branches.value_or(2));
-    if (is_open) add(1);
-  }
-  if (options_.tiles.value_or(is_open))
-    all.emplace_back(std::in_place_type<TileRenderer>, scene, PathOptions{options_.strategy, options_.max_depth, 1},
-                     points_, extent_, splat_, light_tracer());
-  return all;
-}
-
-// Of a pixel, counted from the border. The first pass takes one renderer: cut short, it leaves whole rows.
-std::size_t RenderJob::renderer_of(std::size_t row, std::size_t column) const {
-  if (chosen_ != undecided) return chosen_;
-  if (mean_ == 0) return 0;
-  const auto block = [&](std::size_t at, int first) { // the offset keeps it positive
-    const int shift = pilot_block * (SplatFilter::max_radius + 1);
-    return static_cast<std::size_t>((static_cast<int>(at) + first - static_cast<int>(border()) + shift) / pilot_block);
-  };
-  return (block(row, extent_.crop.y) + block(column, extent_.crop.x)) % renderers_.size();
-}
-
-// Mean standard errors, and not mean variances, so that a few bright samples do not decide.
-std::size_t RenderJob::best_renderer() const {
-  struct Sums {
-    double errors = 0, rays = 0, pixels = 0;
-    double cost() const { return pixels > 0 ? mc::sqr(errors / pixels) * rays / pixels : mc::infinity<double>; }
-  };
-  std::vector<Sums> sums(renderers_.size());
-  const Image image = film_.image();
-  double mean = 0;
-  for (const Spectrum& pixel : image.pixels) mean += pixel.cast<double>().sum() / (3.0 * double(image.pixels.size()));
-  for (int y = 0; y < film_.height(); ++y)
-    for (int x = 0; x < film_.width(); ++x) {
-      Sums& own = sums[renderer_of(static_cast<std::size_t>(y) + border(), static_cast<std::size_t>(x) + border())];
-      const PixelEstimate pixel = film_.estimate(x, y);
-      const Eigen::Array3d unit = pixel.mean.square() + mc::sqr(mean / 2);
-      own.errors += std::sqrt(((pixel.variance - pixel.light_variance) / unit).mean());
-      own.rays += double(film_.rays(x, y));
-      ++own.pixels;
-    }
-  const auto best =
-      std::min_element(sums.begin(), sums.end(), [](const Sums& a, const Sums& b) { return a.cost() < b.cost(); });
-  return static_cast<std::size_t>(best - sums.begin());
-}
-
-// Of all samples. A pilot has its share of tiles, too.
+// An upper bound, also if the pass does not come to its end.
 double RenderJob::noise_area() const {
-  constexpr double of_tiles = PathReuseIntegrator<Scene>::noise_area;
-  if (!tile_renderer()) return 1;
-  if (chosen_ == renderers_.size() - 1) return of_tiles;
-  const double tried = std::max((is_pilot_ ? mean_ : pilot_mean_) - film_.sets(), 0.0); // after the first pass
-  return 1 + (of_tiles - 1) * tried / (std::max(mean_, 1.0) * double(renderers_.size()));
+  const double mean = std::max(is_pilot() ? pass_.mean : mean_, 1.0);
+  return renderers_.noise_area(std::max((is_pilot() ? mean : pilot_mean_) - film_.sets(), 0.0) / mean);
 }
 
 // For the rows of a pass that lack splats: a row, or a tile, and `border` rows above and below.
@@ -267,43 +209,42 @@ double RenderJob::wanted_by_error() const {
 double RenderJob::end_of_pass(double wanted) const {
   if (mean_ == 0) return film_.sets();
   double rest = wanted - mean_;
-  if (is_limited() && !is_pilot_) rest = std::max({0.75 * rest, 0.02 * mean_, 1.0});
+  if (is_limited() && !is_pilot()) rest = std::max({0.75 * rest, 0.02 * mean_, 1.0});
   return mean_ + std::min(rest, mean_);
 }
 
 std::size_t RenderJob::next_stage() {
   units_ = 0;
-  while (units_ == 0) switch (stage_) {
-    case Stage::none:
-      if (!begin_pass()) return 0;
-      stage_ = Stage::light_paths;
-      // Before the first pixels only a few light paths are traced, so that the pixels start soon. Any number of light
-      // paths is unbiased.
-      units_ =
-          begin_light_paths(mean_ == 0 ? std::min(pass_.all_light, LightTracingPass::batch_size) : pass_.all_light);
-      break;
-    case Stage::light_paths:
-      count_light_paths();
-      stage_ = Stage::pixels;
-      units_ = begin_pixels();
-      break;
-    case Stage::pixels:
-      stage_ = Stage::more_light_paths;
-      units_ = begin_light_paths(pass_.all_light);
-      break;
-    case Stage::more_light_paths:
-      count_light_paths();
-      end_pass();
-      stage_ = Stage::none;
-    }
+  while (units_ == 0 && (stage_ != Stage::none || begin_pass())) units_ = begin_stage();
   return units_;
+}
+
+// Begins the stage after the current one. Returns its number of units.
+std::size_t RenderJob::begin_stage() {
+  switch (stage_) {
+  case Stage::none:
+    stage_ = Stage::light_paths;
+    // Before the first pixels only a few light paths are traced, so that the pixels start soon. Any number of light
+    // paths is unbiased.
+    return begin_light_paths(mean_ == 0 ? std::min(pass_.all_light, LightTracingPass::batch_size) : pass_.all_light);
+  case Stage::light_paths:
+    count_light_paths();
+    stage_ = Stage::pixels;
+    return begin_pixels();
+  case Stage::pixels: stage_ = Stage::more_light_paths; return begin_light_paths(pass_.all_light);
+  case Stage::more_light_paths:
+    count_light_paths();
+    end_pass();
+    stage_ = Stage::none;
+  }
+  return 0;
 }
 
 // Returns false at the end of the render.
 bool RenderJob::begin_pass() {
   const double wanted = this->wanted();
   if (!(mean_ < wanted) || is_out_of_time()) return false;
-  if (is_pilot_ && is_end_of_pilot(mean_, wanted)) make_plan();
+  if (is_pilot() && is_end_of_pilot(mean_, wanted)) make_plan();
   pass_ = {.mean = end_of_pass(wanted),
            .wanted = wanted,
            .light_done = light_done_,
@@ -317,26 +258,10 @@ bool RenderJob::begin_pass() {
 
 // Splats of different passes are averaged by the number of samples of the passes, so that only later passes have rates.
 void RenderJob::make_plan() {
-  is_pilot_ = false;
   pilot_mean_ = mean_;
-  if (chosen_ == undecided) chosen_ = best_renderer();
-  const auto* tiles = std::get_if<TileRenderer>(&renderers_[chosen_]);
-  plan_ = adaptive_plan(film_, least_rate, options_.error_scope, options_.threads, tiles ? tiles->tiling() : Tiling{});
-  if (!splat_ || plan_.rates.empty()) return;
-  plan_.even = mean_;
-  // A pixel of the border has the rate of the nearest pixel of the film; the mean of all is 1 again.
-  std::vector<float> rates;
-  rates.reserve(taken_.size());
-  const auto inside = [&](std::size_t at, int size) {
-    return std::min(std::max(at, border()) - border(), static_cast<std::size_t>(size) - 1);
-  };
-  for (std::size_t y = 0; y < height(); ++y)
-    for (std::size_t x = 0; x < width(); ++x)
-      rates.push_back(
-          plan_.rates[inside(y, film_.height()) * static_cast<std::size_t>(film_.width()) + inside(x, film_.width())]);
-  const double mean = std::accumulate(rates.begin(), rates.end(), 0.0) / double(rates.size());
-  for (float& rate : rates) rate = static_cast<float>(double(rate) / mean);
-  plan_.rates = std::move(rates);
+  renderers_.choose(film_);
+  plan_ = adaptive_plan(film_, least_rate, options_.error_scope, options_.threads, renderers_.tiling());
+  if (splat_) plan_ = plan_.with_border(film_.width(), film_.height(), static_cast<int>(border()), mean_);
 }
 
 std::size_t RenderJob::begin_light_paths(std::uint64_t to) {
@@ -348,7 +273,7 @@ std::size_t RenderJob::begin_light_paths(std::uint64_t to) {
 
 // A unit has whole rows in the first pass, of which cancellation leaves complete rows.
 std::size_t RenderJob::begin_pixels() {
-  const double samples = std::max((pass_.mean - mean_) * (is_pilot_ || plan_.rates.empty() ? 1 : 4), 1.0);
+  const double samples = std::max((pass_.mean - mean_) * (plan_.rates.empty() ? 1 : 4), 1.0);
   const auto columns = static_cast<std::uint64_t>(std::max(double(samples_of_unit) / samples, 2.0));
   const std::uint64_t side = PathReuseIntegrator<Scene>::side;
   pass_.columns = mean_ == 0 ? width() + side : (columns + side - 1) / side * side;
@@ -359,7 +284,8 @@ std::size_t RenderJob::begin_pixels() {
 // Parts end between tiles.
 RenderJob::RowPart RenderJob::row_part(std::size_t unit) const {
   const std::size_t parts = pass_.pixel_units / height(), part = unit % parts;
-  const std::size_t cut = tile_renderer() ? static_cast<std::size_t>(tile_renderer()->first_column()) : 0;
+  const Tiling tiles = renderers_.any_tiling();
+  const std::size_t cut = place_of_border(tiles.x, tiles, border());
   const auto at = [&](std::size_t i) { return std::min(std::max(i * pass_.columns, cut) - cut, width()); };
   const std::size_t row = unit / parts;
   return {mean_ == 0 ? row_order_[row] : row, at(part), at(part + 1)};
@@ -388,19 +314,9 @@ std::optional<RenderJob::Result> RenderJob::compute_samples(std::size_t unit) co
   const auto weight =
       splat_ && !plan_.rates.empty() ? std::optional((pass_.mean - mean_) / film_.sets()) : std::nullopt;
   const auto in_film = [&](std::size_t at) { return static_cast<int>(at) - static_cast<int>(border()); };
-  for (std::size_t begin = part.begin; begin < part.end;) {
-    const std::size_t chosen = renderer_of(part.row, begin);
-    std::size_t end = begin + 1;
-    while (end < part.end && renderer_of(part.row, end) == chosen) ++end;
-    const std::size_t skipped = begin - part.begin, count = end - begin;
-    result.stats.merge(std::visit(
-        [&](const auto& renderer) {
-          return renderer.render_row(in_film(part.row), in_film(begin), from.subspan(skipped, count),
-                                     std::span(to).subspan(skipped, count), result.block, weight);
-        },
-        renderers_[chosen]));
-    begin = end;
-  }
+  // The first pass does not alternate: cut short, it leaves whole rows.
+  result.stats =
+      renderers_.render_row(in_film(part.row), in_film(part.begin), from, to, result.block, weight, mean_ > 0);
   return result;
 }
 
@@ -430,7 +346,7 @@ bool RenderJob::needs_results() const {
   const bool ends_pass =
       stage_ == Stage::more_light_paths || (stage_ == Stage::pixels && pass_.light_done >= pass_.all_light);
   if (!ends_pass) return false;
-  const bool begins_plan = is_pilot_ && pass_.mean < options_.spp && is_end_of_pilot(pass_.mean, options_.spp);
+  const bool begins_plan = is_pilot() && pass_.mean < options_.spp && is_end_of_pilot(pass_.mean, options_.spp);
   return is_limited() || begins_plan;
 }
 
@@ -456,9 +372,9 @@ void RenderJob::end_pass() {
   light_done_ = pass_.light_done;
   taken_ = next_taken_;
   window_.reset();
-  if (!is_whole) return;
-  mean_ = pass_.mean;
+  if (is_whole) mean_ = pass_.mean;
   film_.set_noise_area(noise_area());
+  if (!is_whole) return;
   if (options_.target_error || options_.progress) estimate_error();
 }
 

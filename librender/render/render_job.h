@@ -1,15 +1,12 @@
 #pragma once
 /// The work of a render in units.
 
-#include <render/film/sampling_plan.h>
 #include <render/light_tracing_pass.h>
-#include <render/render.h>
-#include <render/tile_renderer.h>
+#include <render/renderer_choice.h>
 
 #include <mc/run/job.h>
 
 #include <chrono>
-#include <variant>
 
 namespace render {
 
@@ -17,8 +14,7 @@ namespace render {
 ///   passes : each pass takes every pixel to its number of samples for a mean over the image. A pass has up to three
 ///            stages: light paths, pixels, and again light paths.
 ///   units  : 1024 light paths, or some pixels of a row; see render_row() of PixelRenderer and TileRenderer.
-///   plan   : made before the first pass after the pilot, for adaptive sampling.
-///   renderers : of single pixels or of tiles; blocks of the pilot take those that the options leave open in turn.
+///   plan   : made before the first pass after the pilot, for adaptive sampling, with the choice of the renderer.
 class RenderJob {
  public:
   /// Result of a unit.
@@ -49,7 +45,7 @@ class RenderJob {
   /// As mc::Job.
   template <class Archive> void archive(Archive& a) {
     double seconds = elapsed();
-    a(film_, taken_, next_taken_, plan_, is_pilot_, pilot_mean_, chosen_, mean_, total_, error_.value, error_.bound,
+    a(film_, taken_, next_taken_, plan_, renderers_, pilot_mean_, mean_, total_, error_.value, error_.bound,
       outlier_dominated_, unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds_);
     bool has_window = window_.has_value();
     a(has_window);
@@ -62,7 +58,7 @@ class RenderJob {
     }
   }
   /// As mc::Job.
-  template <class Archive> void archive_stage(Archive& a) { a(taken_, plan_, chosen_, mean_, stage_, pass_); }
+  template <class Archive> void archive_stage(Archive& a) { a(taken_, plan_, renderers_, mean_, stage_, pass_); }
 
   /// Image and statistics of the samples so far. Call it once, after the run.
   ///   is_done : whether the run came to its end.
@@ -88,8 +84,6 @@ class RenderJob {
         stats);
     }
   };
-  using Renderer = std::variant<PixelRenderer, TileRenderer>;
-  static constexpr std::size_t undecided = std::size_t(-1);
   // The pixels of a unit: columns [begin, end) of a row, counted from the border.
   struct RowPart {
     std::size_t row, begin, end;
@@ -104,11 +98,8 @@ class RenderJob {
   std::size_t height() const { return static_cast<std::size_t>(extent_.crop.height) + 2 * border(); }
   std::size_t width() const { return static_cast<std::size_t>(extent_.crop.width) + 2 * border(); }
   const LightTracer* light_tracer() const { return light_tracer_ ? &*light_tracer_ : nullptr; }
-  // None unless pixels may be rendered in tiles.
-  const TileRenderer* tile_renderer() const { return std::get_if<TileRenderer>(&renderers_.back()); }
-  std::vector<Renderer> renderers_for(const Scene& scene) const;
-  std::size_t renderer_of(std::size_t row, std::size_t column) const;
-  std::size_t best_renderer() const;
+  // Whether a plan is yet to be made.
+  bool is_pilot() const { return options_.adaptive && pilot_mean_ == 0; }
   double noise_area() const;
   bool is_end_of_pilot(double mean, double wanted) const;
   Film new_window() const;
@@ -117,6 +108,7 @@ class RenderJob {
   double wanted() const;
   double wanted_by_error() const;
   double end_of_pass(double wanted) const;
+  std::size_t begin_stage();
   bool begin_pass();
   void take_complete_row();
   void end_pass();
@@ -141,7 +133,7 @@ class RenderJob {
   std::optional<SplatFilter> splat_;
   std::optional<LightTracer> light_tracer_;
   PixelPoints points_;
-  std::vector<Renderer> renderers_; ///< Tiles last.
+  RendererChoice renderers_;
   std::optional<LightTracingPass> light_tracing_pass_;
   std::vector<std::uint32_t> row_order_; ///< Rows that write to common pixels keep their order in every crop.
 
@@ -150,9 +142,7 @@ class RenderJob {
   std::vector<std::uint32_t> taken_, ///< Number of samples of every pixel before the pass.
       next_taken_;                   ///< The same for pixels that were absorbed in the pass.
   SamplingPlan plan_;
-  bool is_pilot_;                ///< Whether the plan is yet to be made.
-  double pilot_mean_ = 0;        ///< Samples per pixel of the pilot, once the plan is made.
-  std::size_t chosen_;           ///< Index of the renderer; undecided during a pilot of several.
+  double pilot_mean_ = 0;        ///< Samples per pixel of the pilot; 0 until the plan is made.
   double mean_ = 0;              ///< Samples per pixel after the finished passes.
   std::uint64_t light_done_ = 0; ///< Number of light paths of the finished passes.
   RenderStats total_;

@@ -22,8 +22,6 @@ class TileRenderer {
 
   /// Position of the film's pixels in their tiles.
   Tiling tiling() const { return {side, place(extent_.crop.x), place(extent_.crop.y)}; }
-  /// Column of the first pixel of the border in its tile.
-  int first_column() const { return place(extent_.crop.x - border()); }
 
   /// Adds the samples of the tiles that begin at row y, within the columns from `column` on, to a block. The pixels of
   /// a tile whose first column is column + i have the samples [from[i], to[i]). Samples that are not finite are left

@@ -23,7 +23,7 @@ template <class S, std::size_t N> constexpr S polynomial(const std::array<S, N>&
 
 /// Rational approximations of x = probit(u), fitted to the least largest relative error, in the form of [Wichura88].
 ///   centre : x / q in centre_edge^2 - q^2, for |q| <= centre_edge with q = u - 1/2; error 8e-17 and 5e-8.
-///   tail   : -x in sqrt(-log u) - tail_start, for u from `least` to 1/2 - centre_edge; error 9e-18 and 6e-9.
+///   tail   : -x in sqrt(-log u) - tail_start, for u from least_tail to 1/2 - centre_edge; error 9e-18 and 6e-9.
 template <std::floating_point S> struct ProbitFit;
 template <> struct ProbitFit<double> {
   static constexpr std::array centre_top = {3.3871328727963665983, 133.15488503199009552, 1972.0228192222932681,
@@ -58,6 +58,7 @@ template <> struct ProbitFit<float> {
 };
 
 template <std::floating_point S> inline constexpr S centre_edge = S(0.425);
+template <std::floating_point S> inline constexpr S tail_start = S(1.625);
 template <Real S> inline const S least_tail = std::numeric_limits<S>::epsilon() / 4;
 
 template <std::floating_point S> S central_probit(S q) {
@@ -66,11 +67,11 @@ template <std::floating_point S> S central_probit(S q) {
   return q * polynomial(Fit::centre_top, t) / polynomial(Fit::centre_bottom, t);
 }
 
-// The quantile of u in the lower tail.
+// probit(u) in the lower tail.
 template <std::floating_point S> S tail_probit(S u) {
   using Fit = ProbitFit<S>;
   const BinaryFraction<S> x(u < least_tail<S> ? least_tail<S> : u);
-  const S r = std::sqrt(-log_of(x.k, x.f)) - S(1.625);
+  const S r = std::sqrt(-log_of(x.k, x.f)) - tail_start<S>;
   return -polynomial(Fit::tail_top, r) / polynomial(Fit::tail_bottom, r);
 }
 

@@ -192,6 +192,19 @@ double light_rate(const RateCandidate& samples, double variance, double rays) {
 
 } // namespace
 
+SamplingPlan SamplingPlan::with_border(int width, int height, int border, double from) const {
+  if (rates.empty()) return *this;
+  SamplingPlan plan{.rates = {}, .even = from, .light_path_scale = light_path_scale};
+  for (int y = -border; y < height + border; ++y)
+    for (int x = -border; x < width + border; ++x)
+      plan.rates.push_back(
+          rates[static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(std::clamp(x, 0, width - 1))]);
+  const double mean = std::accumulate(plan.rates.begin(), plan.rates.end(), 0.0) / double(plan.rates.size());
+  for (float& rate : plan.rates) rate = static_cast<float>(double(rate) / mean);
+  return plan;
+}
+
 SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorScope scope, int threads, const Tiling& tiling) {
   mc::require(least > 0 && least <= 1, "adaptive_plan: the least rate {} must lie in (0, 1]", least);
   const Tiles tiles(pilot, scope, tiling);

@@ -14,6 +14,10 @@ struct SamplingPlan {
   /// The plan, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) { a(rates, even, light_path_scale); }
 
+  /// The plan for a film with a border, whose pixels have the rates of the nearest pixels of the film. The rates apply
+  /// from `from` samples per pixel on.
+  SamplingPlan with_border(int width, int height, int border, double from) const;
+
   /// Number of samples of a pixel for `mean` samples per pixel over the image.
   std::uint32_t samples(std::size_t pixel, double mean) const {
     return static_cast<std::uint32_t>(std::lround(rates.empty() ? mean : even + (mean - even) * double(rates[pixel])));

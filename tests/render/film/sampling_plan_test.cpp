@@ -46,6 +46,18 @@ TEST(SamplingPlan, RatesFollowErrorAndCost) {
   EXPECT_EQ(SamplingPlan().samples(quiet, 7), 7u);
 }
 
+TEST(SamplingPlan, BorderHasTheRatesOfTheNearestPixels) {
+  const SamplingPlan plan = SamplingPlan{.rates = {1, 3}, .light_path_scale = 2}.with_border(2, 1, 1, 16);
+  ASSERT_EQ(plan.rates.size(), 4u * 3);
+  EXPECT_NEAR(mean(plan.rates), 1, 1e-6);
+  for (std::size_t i = 0; i < plan.rates.size(); ++i) EXPECT_NEAR(plan.rates[i], i % 4 < 2 ? 0.5 : 1.5, 1e-6);
+  EXPECT_EQ(plan.light_path_scale, 2);
+  EXPECT_EQ(plan.samples(0, 16), 16u);
+  EXPECT_EQ(plan.samples(0, 64), 16u + 24);
+  EXPECT_EQ(plan.samples(3, 64), 16u + 72);
+  EXPECT_TRUE(SamplingPlan().with_border(2, 1, 1, 16).rates.empty());
+}
+
 // All pixels of a tile have one rate, which depends on neighbouring tiles only. The edges of the film may cut tiles.
 TEST(SamplingPlan, TileRatesFollowNeighbourTiles) {
   const auto rays = [](int, int) { return 3; };
