@@ -1,7 +1,7 @@
 #pragma once
 /// Points and camera rays of the samples of pixels.
 
-#include <render/integrator/medium_stack.h>
+#include <render/scene/medium_stack.h>
 #include <render/scene/scene.h>
 
 #include <mc/random/hash.h>
@@ -98,7 +98,7 @@ class PixelRays {
       : scene_(scene), scale_(1 / Float(extent.width), 1 / Float(extent.height)),
         tan_half_(scene.camera().tan_half(Float(extent.width) / Float(extent.height))),
         media_(initial_media(scene, {scene.camera().origin(), scene.camera().forward()})),
-        media_vary_(has_media(scene) &&
+        media_vary_(scene.has_media() &&
                     (scene.camera().radius() > 0 || scene.camera().near() > 0 || scene.camera().is_parallel())) {}
 
   /// A camera ray at an offset from the centre of pixel (x, y) of the full image [pixels].

@@ -27,6 +27,9 @@ void check(const Scene& scene, const RenderOptions& options) {
               options.target_error.value_or(0));
   mc::require(!options.tiles.value_or(false) || options.aov.kind == Aov::radiance,
               "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
+  mc::require(!options.tiles.value_or(false) || !scene.has_volumes(),
+              "render: tiles share vertices of surfaces, and this scene has media that scatter or have invisible "
+              "boundaries; leave out tiles");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
   const int branches = options.branches.value_or(1);

@@ -27,7 +27,7 @@ RendererChoice::RendererChoice(const Scene& scene, const RenderOptions& options,
     add(options.branches.value_or(2));
     if (is_open) add(1);
   }
-  if (options.tiles.value_or(is_open))
+  if (options.tiles.value_or(is_open && !scene.has_volumes()))
     renderers_.emplace_back(std::in_place_type<TileRenderer>, scene, path(1), points, extent, splat, light_tracer);
   if (renderers_.size() == 1) chosen_ = 0;
 }

@@ -4,6 +4,25 @@
 
 namespace carlo {
 
+namespace {
+
+/// A phase function about -wo. Its values include the cosine, by which a BSDF is multiplied.
+struct Scattering {
+  render::PhaseFunction phase;
+
+  std::optional<render::BsdfSample> sample(const render::Vec3& wo, render::Float uc, const render::Vec2& u) const {
+    auto s = phase.sample(wo, uc, u);
+    s->f *= std::abs(s->wi.z());
+    return s;
+  }
+  render::Spectrum eval(const render::Vec3& wo, const render::Vec3& wi) const {
+    return phase.eval(wo, wi) * std::abs(wi.z());
+  }
+  render::Float pdf(const render::Vec3& wo, const render::Vec3& wi) const { return phase.pdf(wo, wi); }
+};
+
+} // namespace
+
 void add_bsdfs(Catalogue& c) {
   add_bsdf(c, "Lambert", "", render::Lambert{}, {0, 60, 89.9, 120});
   const std::vector<render::Spectrum> texels = {{1, 0, 0.5f}, {0, 1, 0.5f}, {0.2f, 0.4f, 0.5f}, {1, 1, 0.5f}};
@@ -64,6 +83,9 @@ void add_bsdfs(Catalogue& c) {
              {0, 60, grazing(alpha), 120});
   }
   add_bsdf(c, "ThinDielectric", "eta=1.5", render::ThinDielectric{}, {0, 60, 89.9, 120});
+  for (const double g : {-0.5, 0.0, 0.9, 0.99})
+    add_bsdf(c, "PhaseFunction", fmt::format("g={:g}", g), Scattering{render::PhaseFunction(render::Float(g))},
+             {0, 60, 120}, {.cosine = false, .lossless = true});
 }
 
 } // namespace carlo

@@ -1,6 +1,7 @@
 #include <catalogue/warp_case.h>
 
 #include <mc/warp/exponential.h>
+#include <mc/warp/hyperexponential.h>
 #include <mc/warp/linear.h>
 #include <mc/warp/logistic.h>
 #include <mc/warp/normal.h>
@@ -26,6 +27,11 @@ void add_intervals(Catalogue& c) {
     add_warp(c, "Normal", fmt::format("mean=0, sigma={:g}", sigma),
              [sigma](auto s) { return mc::Normal<decltype(s)>(0, static_cast<decltype(s)>(sigma)); });
   add_warp(c, "Exponential", "rate=2", [](auto s) { return mc::Exponential<decltype(s)>(2); }, {.invert_eps = 8});
+  for (const double rate : {1.0, 100.0})
+    add_warp(c, "Hyperexponential", fmt::format("weights=(1, 2, 0.5), rates=(1, 0.3, {:g})", rate), [rate](auto s) {
+      using S = decltype(s);
+      return mc::Hyperexponential<S, 3>({1, 2, S(0.5)}, {1, S(0.3), S(rate)});
+    });
   for (const double rate : {0.0, 1e-3, 10.0, -10.0})
     add_warp(c, "TrimmedExponential", fmt::format("rate={:g}, length=2", rate),
              [rate](auto s) { return mc::TrimmedExponential<decltype(s)>(static_cast<decltype(s)>(rate), 2); },

@@ -32,9 +32,11 @@ std::vector<FeatureRow> rows() {
     const std::string tag = kind.tag.substr(0, kind.tag.find(' ')); // without the rest of "emitter in a shape"
     const bool alike = std::all_of(kind.rows.begin(), kind.rows.end(),
                                    [&](const auto& plugin) { return plugin.meaning == kind.rows.front().meaning; });
-    if (alike && kind.rows.size() > 1) all.push_back({tag, {}});
+    const std::string* meaning = nullptr; // neighbours with one meaning are one feature
     for (const mitsuba::PluginText& plugin : kind.rows) {
-      if (!alike || kind.rows.size() == 1) all.push_back({tag + " " + plugin.name, {}});
+      if (!meaning || plugin.meaning != *meaning)
+        all.push_back({alike && kind.rows.size() > 1 ? tag : tag + " " + plugin.name, {}});
+      meaning = &plugin.meaning;
       all.back().names.insert({tag, plugin.name});
     }
   }

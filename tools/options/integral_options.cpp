@@ -66,7 +66,7 @@ bool supports_allocation(SampleAllocation allocation, const render::SceneFile& f
   const render::Filter& filter = file.scene.filter();
   if (allocation == SampleAllocation::splat)
     return filter.radius() <= render::SplatFilter::max_radius && render::SplatFilter(filter).is_wide();
-  return !uses_tiles(allocation) || file.defaults.aov.kind == render::Aov::radiance;
+  return !uses_tiles(allocation) || (file.defaults.aov.kind == render::Aov::radiance && !file.scene.has_volumes());
 }
 
 std::vector<RenderMethod> methods_of(const SceneOptions& o, const SceneMeasureRequest& run,

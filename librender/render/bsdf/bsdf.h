@@ -4,6 +4,7 @@
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/fuzzy_metal.h>
 #include <render/bsdf/lambert.h>
+#include <render/bsdf/phase_function.h>
 #include <render/bsdf/rough_conductor.h>
 #include <render/bsdf/rough_dielectric.h>
 #include <render/bsdf/rough_plastic.h>
@@ -21,7 +22,7 @@ struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<Layered
                            RoughDielectric<>, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
                            SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor,
                            RoughPlastic<LayeredBase, BeckmannFacets>, RoughDielectric<BeckmannFacets>,
-                           RoughConductor<BeckmannFacets>, ThinDielectric> {
+                           RoughConductor<BeckmannFacets>, ThinDielectric, PhaseFunction> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {

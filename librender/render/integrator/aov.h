@@ -2,7 +2,6 @@
 /// Quantities along camera rays that need no path tracing.
 
 #include <render/film/image.h>
-#include <render/integrator/medium_stack.h>
 #include <render/scene/visibility.h>
 
 namespace render {

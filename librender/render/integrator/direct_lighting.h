@@ -1,7 +1,7 @@
 #pragma once
 /// Next-event estimation: connections of a path vertex to the lights.
 
-#include <render/integrator/medium_stack.h>
+#include <render/integrator/interaction.h>
 #include <render/scene/visibility.h>
 
 #include <mc/estimate/mis.h>
@@ -24,7 +24,7 @@ struct LightConnection {
 template <class SceneType, class B, class Stream>
 RENDER_FLAT std::optional<LightConnection>
 connect_to_light(const SceneType& scene, DirectLighting direct_lighting, const DirectionMixture& mixture,
-                 const SurfaceInteraction<B>& isect, Stream& stream, std::uint64_t& rays) {
+                 const Interaction<B>& isect, Stream& stream, std::uint64_t& rays) {
   const Vec2 u = stream.next2(); // u[0] also selects the light, so that the selection is stratified
   const auto choice = scene.sample_light(isect.point.p, u[0]);
   const Light& source = scene.lights()[choice.index];
@@ -37,11 +37,9 @@ connect_to_light(const SceneType& scene, DirectLighting direct_lighting, const D
   if (is_black(f)) return {};
   const std::optional<Ray> ray = s->point ? isect.point.spawn_ray_to(*s->point, s->wi) : isect.point.spawn_ray(s->wi);
   if (!ray) return {};
-  const Float transmittance = shadow_transmittance(scene, *ray, s->point, rays);
-  if (transmittance == 0) return {};
-  Spectrum arriving = transmittance * s->radiance;
-  if (const HomogeneousMedium* medium = isect.media(s->wi).current) [[unlikely]]
-    arriving *= medium->transmittance(s->point ? (s->point->p - isect.point.p).norm() : mc::infinity<Float>);
+  const Float length = s->point ? (s->point->p - isect.point.p).norm() : mc::infinity<Float>;
+  const Spectrum arriving = s->radiance * transmittance(scene, *ray, s->point, length, isect.media(s->wi), rays);
+  if (is_black(arriving)) return {};
   const Float pdf = choice.pmf * s->pdf;
   const bool is_shared = direct_lighting == DirectLighting::mis && !source.is_delta();
   const Float weight = is_shared ? mc::power_heuristic(pdf, mixture.pdf(isect, wi, s->wi)) : Float(1);

@@ -83,7 +83,7 @@ std::vector<double> emission_weights(const Scene& scene, const std::vector<Spher
 } // namespace
 
 std::optional<LightTracer> LightTracer::create(const Scene& scene, const Strategy& strategy, Float aspect) {
-  if (!(strategy.light_path_rate > 0)) return {};
+  if (!(strategy.light_path_rate > 0) || scene.has_volumes()) return {};
   std::vector<Sphere> balls = caustic_bounds_of(scene);
   const std::vector<double> weights = emission_weights(scene, balls);
   const bool shines = std::any_of(weights.begin(), weights.end(), [](double p) { return p > 0; });
@@ -105,7 +105,7 @@ LightTracer::LightTracer(const Scene& scene, const Strategy& strategy, Float asp
                          const std::vector<double>& weights)
     : scene_(&scene), light_path_rate_(double(strategy.light_path_rate)), tan_half_(scene.camera().tan_half(aspect)),
       light_distribution_(weights), targets_(std::move(targets)), bsdf_mixture_({}, 0),
-      camera_mixture_(scene, camera_strategy(strategy)), has_media_(has_media(scene)) {}
+      camera_mixture_(scene, camera_strategy(strategy)) {}
 
 double LightTracer::emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref,
                                          const Vec3& wi) const {

@@ -1,7 +1,7 @@
 #pragma once
 /// Light tracing: paths from the lights, connected to the camera.
 
-#include <render/integrator/medium_stack.h>
+#include <render/integrator/interaction.h>
 #include <render/integrator/mis_weights.h>
 #include <render/scene/visibility.h>
 
@@ -37,6 +37,7 @@ class LightTracer {
   ///   - The strategy has no light paths.
   ///   - No light of the scene can emit them.
   ///   - No surface casts caustics.
+  ///   - Some medium scatters, or has an invisible boundary.
   ///   - The radius of the pixel filter exceeds SplatFilter::max_radius.
   ///   aspect : width / height of the film.
   static std::optional<LightTracer> create(const Scene& scene, const Strategy& strategy, Float aspect);
@@ -115,10 +116,9 @@ class LightTracer {
     return std::abs(isect.wo.z() / isect.frame.to_world(isect.wo).dot(isect.point.ng));
   }
   template <class Stream, class AddSplat>
-  void connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
+  void connect_to_camera(const Interaction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
                          std::uint64_t& rays, const AddSplat& add_splat) const;
-  template <class Stream>
-  bool scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const;
+  template <class Stream> bool scatter(const Interaction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const;
 
   const Scene* scene_;
   double light_path_rate_;
@@ -126,7 +126,6 @@ class LightTracer {
   mc::TableDist1D<Float> light_distribution_;
   EmissionTargets targets_; ///< Caustic bounds.
   DirectionMixture bsdf_mixture_, camera_mixture_;
-  bool has_media_; ///< Some surface has an interior medium.
 };
 
 /// The strategies that find every light of the scene. Leaves out mis+lt if it would equal mis.
@@ -146,7 +145,7 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
                        PartialMisWeight(1 / mc::sqr(vertex_pdf), emission->ray_pdf, emission->cosine)};
   subpath.from_delta_light = scene_->lights()[light].is_delta();
   subpath.initial_beta_max = subpath.beta.maxCoeff();
-  if (has_media_) [[unlikely]]
+  if (scene_->has_media()) [[unlikely]]
     subpath.media = initial_media(*scene_, subpath.ray);
   while (max_depth < 0 || subpath.edges + 1 < max_depth) {
     ++subpath.edges;
@@ -166,9 +165,9 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
     else subpath.partial_mis.add_vertex(cosine, from_afar ? 1 : distance2);
     const auto frame = mc::Frame<Float>::from_z(point.ns);
     std::optional<Bsdf> varied;
-    const SurfaceInteraction<Bsdf> isect{
+    const Interaction<Bsdf> isect{
         {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-subpath.ray.d)},
-        surface,
+        surface.interior.get(),
         subpath.media};
     if (subpath.edges == 1)
       subpath.nee_pdf_squared = mc::sqr(double(scene_->light_pmf(point.p, light)) *
@@ -180,7 +179,7 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
 }
 
 template <class Stream, class AddSplat>
-void LightTracer::connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
+void LightTracer::connect_to_camera(const Interaction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
                                     std::uint64_t& rays, const AddSplat& add_splat) const {
   const ThinLens& camera = scene_->camera();
   const auto seen =
@@ -192,21 +191,19 @@ void LightTracer::connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const
   if (is_black(f)) return;
   Ray ray = isect.point.spawn_ray(seen->wi);
   ray.t_max = seen->t_max;
-  const Float transmittance = shadow_transmittance(*scene_, ray, {}, rays);
-  if (transmittance == 0) return;
+  const Spectrum arriving = subpath.beta * transmittance(*scene_, ray, {}, seen->distance, isect.media(seen->wi), rays);
+  if (is_black(arriving)) return;
   const double from_camera = double(seen->direction_pdf) * std::abs(double(isect.point.ng.dot(seen->wi))) /
                              mc::sqr(camera.spread(double(seen->distance)));
   const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared(isect, subpath, wi, false, 1)) *
                            mc::sqr(from_camera / light_path_rate_);
-  Spectrum value = transmittance * subpath.beta * f;
-  if (const HomogeneousMedium* medium = isect.media(seen->wi).current) [[unlikely]]
-    value *= medium->transmittance(seen->distance);
-  add_splat(seen->s, Spectrum(value * Float(subpath.beta_scale * from_camera / (light_path_rate_ * (1 + mis_ratio))) *
-                              shading_normal_correction(isect)));
+  add_splat(seen->s,
+            Spectrum(arriving * f * Float(subpath.beta_scale * from_camera / (light_path_rate_ * (1 + mis_ratio))) *
+                     shading_normal_correction(isect)));
 }
 
 template <class Stream>
-bool LightTracer::scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const {
+bool LightTracer::scatter(const Interaction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const {
   const auto next = bsdf_mixture_.sample(isect, stream);
   if (!next) return false;
   const bool near_specular = next->pdf == 0;

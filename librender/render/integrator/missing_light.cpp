@@ -13,8 +13,8 @@ std::optional<MissingLight> missing_light(const Scene& scene, const Strategy& st
   const auto is_smooth = [&](const Surface& s) { return scene.bsdf(s).lobes().is_delta(); };
   const auto light = std::find_if(lights.begin(), lights.end(), [](const Light& l) { return l.is_delta(); });
   const auto smooth = std::find_if(surfaces.begin(), surfaces.end(), is_smooth);
-  if (light == lights.end() || smooth == surfaces.end() || std::all_of(surfaces.begin(), surfaces.end(), is_smooth))
-    return {};
+  const bool scatters = scene.has_volumes() || !std::all_of(surfaces.begin(), surfaces.end(), is_smooth);
+  if (light == lights.end() || smooth == surfaces.end() || !scatters) return {};
   return MissingLight{static_cast<std::size_t>(light - lights.begin()),
                       static_cast<std::size_t>(smooth - surfaces.begin()),
                       LightTracer::create(scene, strategy, 1).has_value()};

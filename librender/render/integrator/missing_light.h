@@ -9,8 +9,8 @@
 
 namespace render {
 
-/// Light of a point or directional light that reaches rough surfaces by way of smooth glass or a mirror. No path that
-/// starts at the camera finds it: no direction hits the light, and a connection to it does not bend.
+/// Light of a point or directional light that reaches rough surfaces and media by way of smooth glass or a mirror. No
+/// path that starts at the camera finds it: no direction hits the light, and a connection to it does not bend.
 struct MissingLight {
   std::size_t light;   ///< Index of the light.
   std::size_t surface; ///< Index of a surface of smooth glass, or of a mirror.

@@ -64,6 +64,7 @@ struct NoLightPaths {
 ///                 traces.
 ///   Caustics    : connections to lights cannot find them. `mis` aims up to a quarter of its directions at spheres of
 ///                 glass or mirror.
+///   Media       : a path scatters at a sampled distance, or reaches the surface; see HomogeneousMedium::sample_edge().
 ///   Splitting   : a path splits at its first non-delta vertex, by default in two. The path to this vertex and the
 ///                 direct lighting cost much of the time and contribute little of the variance [ArvoKirk90].
 ///   Roulette    : from the fourth edge on a path survives with probability min(.99, max(4, g) max(beta) eta_scale).
@@ -75,7 +76,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   /// The scene's BSDF type.
   using BsdfType = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
   /// A vertex with its BSDF, frame and media.
-  using Interaction = SurfaceInteraction<BsdfType>;
+  using Interaction = render::Interaction<BsdfType>;
 
   /// State carried along a camera path.
   struct PathState {
@@ -95,7 +96,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     [[no_unique_address]] typename LightMis::PartialWeight partial_mis = {};
   };
 
-  /// The end of an edge: a point on a surface, or nothing. Not copyable: it may own the BSDF that it points to.
+  /// The end of an edge: a point on a surface or within a medium, or nothing. Not copyable: it may own the BSDF that it
+  /// points to.
   struct Vertex {
     Vertex() = default;
     Vertex(const Vertex&) = delete;
@@ -103,16 +105,19 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
 
     /// Position and normals.
     SurfacePoint point;
-    /// The surface; null if the edge leaves the scene.
+    /// The surface; null within a medium, and if the edge leaves the scene.
     const Surface* surface = nullptr;
-    /// The BSDF: the scene's, or bsdf_storage.
+    bool escapes = false; ///< Whether the edge leaves the scene.
+    /// The BSDF: the scene's, bsdf_storage, or the phase function of the medium.
     const BsdfType* bsdf = nullptr;
     std::optional<Bsdf> bsdf_storage; ///< The BSDF if a texture varies it.
 
     /// The vertex with its shading frame, for a path that arrives by state.ray.
     Interaction interaction(const PathState& state) const {
       const auto frame = mc::Frame<Float>::from_z(point.ns);
-      return {{*bsdf, point, frame, frame.to_local(-state.ray.d)}, *surface, state.media};
+      return {{*bsdf, point, frame, frame.to_local(-state.ray.d)},
+              surface ? surface->interior.get() : nullptr,
+              state.media};
     }
   };
 
@@ -169,18 +174,23 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   /// Traces an edge to the next vertex. Returns false if the path ends there.
   template <class Stream> bool intersect(PathState& state, Vertex& vertex, Stream& stream, std::uint64_t& rays) const {
     ++state.edges;
-    const auto hit = sample_nearest_hit(scene_, state.ray, stream, rays);
+    vertex.surface = nullptr;
+    std::optional<Hit> hit;
+    if (scene_.has_media()) [[unlikely]] {
+      const EdgeEnd end =
+          sample_edge_in_media(scene_, state.ray, state.previous_point, state.media, state.beta, stream, rays);
+      if (end.scattering) return scatter_in_medium(state, vertex, *end.scattering);
+      hit = end.hit;
+    } else {
+      hit = sample_nearest_hit(scene_, state.ray, stream, rays);
+    }
+    vertex.escapes = !hit;
     if (!hit) {
-      vertex.surface = nullptr;
-      if (state.media.current) [[unlikely]]
-        state.beta *= state.media.current->transmittance(mc::infinity<Float>);
       light_mis_.escape(state.partial_mis);
       return false;
     }
     vertex.surface = &scene_.surface(*hit);
     vertex.point = vertex.surface->shape->surface_point(state.ray, *hit);
-    if (state.media.current) [[unlikely]]
-      state.beta *= state.media.current->transmittance((vertex.point.p - state.previous_point).norm());
     light_mis_.arrive(state.partial_mis, state.edges, state.previous_point, state.ray.d, vertex.point);
     if (state.edges == max_depth_ || vertex.surface->absorbs(vertex.point, state.ray.d)) return false;
     vertex.bsdf = &scene_.bsdf(*vertex.surface, *hit, vertex.point, vertex.bsdf_storage);
@@ -190,10 +200,10 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   /// Passes the emission at the end of the last edge to `add_radiance`.
   template <class AddRadiance>
   void add_emission(const PathState& state, const Vertex& vertex, const AddRadiance& add_radiance) const {
-    if (!vertex.surface) {
+    if (vertex.escapes) {
       for (const std::uint32_t light : scene_.infinite_lights())
         add_radiance(emitted_contribution(light, nullptr, state));
-    } else if (vertex.surface->light) {
+    } else if (vertex.surface && vertex.surface->light) {
       add_radiance(emitted_contribution(*vertex.surface->light, &vertex.point, state));
     }
   }
@@ -246,6 +256,14 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   const LightMis& light_mis() const { return light_mis_; }
 
  private:
+  // A vertex within a medium, with the phase function as BSDF and the direction of arrival as axis.
+  bool scatter_in_medium(const PathState& state, Vertex& vertex, const Vec3& p) const {
+    vertex.escapes = false;
+    const Vec3 axis = -state.ray.d.normalized();
+    vertex.point = {.p = p, .ng = axis, .ns = axis};
+    if constexpr (std::same_as<BsdfType, Bsdf>) vertex.bsdf = &state.media.current->phase_function();
+    return state.edges != max_depth_;
+  }
   // Mean over several branches of the light that a path finds beyond `isect`.
   template <class Stream>
   Spectrum trace_branches(const PathState& state, const Interaction& isect, Stream& stream, std::uint64_t& rays) const {

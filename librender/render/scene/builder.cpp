@@ -12,6 +12,12 @@ BsdfId SceneBuilder::add(Material material) {
   return BsdfId(static_cast<std::uint32_t>(materials_.size() - 1));
 }
 
+bool SceneBuilder::is_clear(BsdfId material) const {
+  const Material& m = materials_[static_cast<std::size_t>(material)];
+  return m.is_invisible() || m.bsdf.lobes().transmits || std::holds_alternative<Dielectric>(m.bsdf) ||
+         std::holds_alternative<ThinDielectric>(m.bsdf);
+}
+
 void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
   const auto bsdf = static_cast<std::size_t>(properties.bsdf);
   mc::require(bsdf < materials_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf,
@@ -21,10 +27,9 @@ void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
               surfaces_.size(), properties.missing_uv_reason.empty() ? "" : ": ", properties.missing_uv_reason);
   mc::require(!properties.emission || !materials_[bsdf].mask,
               "scene: shape {} shines through a mask, which is not supported; remove one of them", surfaces_.size());
-  mc::require(
-      !properties.interior || !materials_[bsdf].mask,
-      "scene: shape {} holds what absorbs, and a mask has holes that light would leave it by; remove one of them",
-      surfaces_.size());
+  mc::require(!properties.interior || !materials_[bsdf].mask || materials_[bsdf].is_invisible(),
+              "scene: shape {} holds a medium, and a mask has holes that light would leave it by; remove one of them",
+              surfaces_.size());
   if (!textured) shape.discard_uvs();
   if (!properties.emission && !properties.importance_target) shape.discard_sampling_table();
   Surface surface{std::make_shared<const Shape>(std::move(shape)),
@@ -32,7 +37,7 @@ void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
                   {},
                   properties.importance_target,
                   materials_[bsdf].one_sided,
-                  properties.interior};
+                  properties.interior ? std::make_shared<const HomogeneousMedium>(*properties.interior) : nullptr};
   if (properties.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());
     lights_.emplace_back(AreaLight(surface.shape, *properties.emission));
@@ -47,8 +52,12 @@ Scene SceneBuilder::build() {
                   std::any_of(lights_.begin(), lights_.end(), [](const Light& l) { return l.is_infinite(); }),
               "scene: it has neither a shape nor a background; add at least one");
   SceneBuilder parts = std::exchange(*this, SceneBuilder());
-  return {std::move(parts.surfaces_), std::move(parts.materials_), std::move(parts.lights_), parts.camera_,
-          parts.filter_};
+  return {std::move(parts.surfaces_),
+          std::move(parts.materials_),
+          std::move(parts.lights_),
+          parts.camera_,
+          parts.filter_,
+          std::move(parts.ambient_medium_)};
 }
 
 } // namespace render

@@ -15,6 +15,9 @@ class SceneBuilder {
   /// Adds a material.
   BsdfId add(Material material);
 
+  /// Whether light passes through surfaces of a material: glass, or an invisible boundary.
+  bool is_clear(BsdfId material) const;
+
   /// Properties of a surface besides its shape.
   struct SurfaceProperties {
     BsdfId bsdf;                                    ///< Material, from add().
@@ -25,12 +28,17 @@ class SceneBuilder {
   };
   /// Adds a surface.
   ///   throws : Error for an unknown BSDF, or for a texture on a shape without texture coordinates. Error for a mask on
-  ///            a surface that emits or has an interior medium. Error for a shape or emission that AreaLight rejects.
+  ///            a surface that emits, and for a visible mask on the boundary of a medium. Error for a shape or emission
+  ///            that AreaLight rejects.
   void add(Shape shape, const SurfaceProperties& properties);
 
   /// Adds a light without a shape.
   void add(Light light);
 
+  /// Sets the medium outside of all surfaces.
+  void set_ambient(const HomogeneousMedium& medium) {
+    ambient_medium_ = std::make_shared<const HomogeneousMedium>(medium);
+  }
   /// Sets the camera.
   void set(const ThinLens& camera) { camera_ = camera; }
   /// Sets the pixel filter.
@@ -44,6 +52,7 @@ class SceneBuilder {
   std::vector<Surface> surfaces_;
   std::vector<Material> materials_;
   std::vector<Light> lights_;
+  std::shared_ptr<const HomogeneousMedium> ambient_medium_;
   ThinLens camera_;
   Filter filter_;
 };

@@ -6,14 +6,18 @@
 namespace render {
 
 Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
-             Filter filter)
+             Filter filter, std::shared_ptr<const HomogeneousMedium> ambient_medium)
     : surfaces_(std::move(surfaces)), materials_(std::move(materials)), lights_(std::move(lights)),
-      camera_(std::move(camera)), filter_(std::move(filter)) {
+      ambient_medium_(std::move(ambient_medium)), camera_(std::move(camera)), filter_(std::move(filter)) {
   std::vector<const Shape*> shapes;
   for (const Surface& s : surfaces_) shapes.push_back(s.shape.get());
   bvh_ = Bvh(shapes);
-  has_masks_ =
-      std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) { return material(s).mask != nullptr; });
+  const auto any_surface = [&](const auto& holds) { return std::any_of(surfaces_.begin(), surfaces_.end(), holds); };
+  has_masks_ = any_surface([&](const Surface& s) { return material(s).mask != nullptr; });
+  has_media_ = ambient_medium_ || any_surface([](const Surface& s) { return s.interior != nullptr; });
+  has_volumes_ = (ambient_medium_ && ambient_medium_->scatters()) || any_surface([&](const Surface& s) {
+                   return s.interior && (s.interior->scatters() || material(s).mask);
+                 });
 
   const Bounds& bounds = bvh_.bounds();
   const double radius = surfaces_.empty() ? 1.0 : (bounds.hi - bounds.lo).cast<double>().norm() / 2;

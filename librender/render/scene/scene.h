@@ -26,10 +26,19 @@ struct Material {
   std::shared_ptr<const Mask> mask;            ///< Mask of opacity; null: opaque.
   bool one_sided = false;                      ///< Whether the side opposite to the normal absorbs all light.
 
+  /// A material that no light meets: the boundary of a medium alone.
+  static Material invisible() {
+    Material material((Bsdf()));
+    material.mask = std::make_shared<const Mask>(Float(0));
+    return material;
+  }
+
   /// An opaque material without texture.
   Material(Bsdf b) : bsdf(std::move(b)) {}
   /// An opaque material with texture.
   Material(TexturedBsdf t) : bsdf(t.untextured()), texture(std::make_shared<const TexturedBsdf>(std::move(t))) {}
+  /// Whether it is invisible().
+  bool is_invisible() const { return mask && !mask->varies() && mask->opacity(Vec2d::Zero()) == 0; }
   /// Whether the material needs texture coordinates.
   bool needs_uv() const { return texture || (mask && mask->varies()); }
 };
@@ -43,8 +52,8 @@ struct Surface {
   std::optional<std::uint32_t> light; ///< Index of the area light of this shape; none: it does not emit.
   bool importance_target = false;     ///< Whether strategies with targets also aim at this shape.
   bool one_sided = false;             ///< As in its material.
-  /// Medium on the side opposite to the normals; the other side is empty.
-  std::optional<HomogeneousMedium> interior = {};
+  /// Medium on the side opposite to the normals; null: the surface separates no media.
+  std::shared_ptr<const HomogeneousMedium> interior = {};
 
   /// Whether light that arrives at `point` in the direction d is absorbed, since d comes from the absorbing side.
   bool absorbs(const SurfacePoint& point, const Vec3& d) const { return one_sided && point.ng.dot(d) > 0; }
@@ -89,6 +98,13 @@ class Scene {
     return mask->opacity(mask->varies() ? s.shape->uv(hit, point) : Vec2d::Zero());
   }
 
+  /// Whether rays pass any medium. Visibility then depends on the media along a ray; see visibility.h.
+  bool has_media() const { return has_media_; }
+  /// Whether some medium scatters or has an invisible boundary. Camera paths alone find light there.
+  bool has_volumes() const { return has_volumes_; }
+  /// Medium outside of all surfaces; null: vacuum.
+  const HomogeneousMedium* ambient_medium() const { return ambient_medium_.get(); }
+
   /// All lights.
   std::span<const Light> lights() const { return lights_; }
   /// Indices of the lights that emit along rays that leave the scene.
@@ -110,7 +126,7 @@ class Scene {
  private:
   friend class SceneBuilder;
   Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
-        Filter filter);
+        Filter filter, std::shared_ptr<const HomogeneousMedium> ambient_medium);
   const Material& material(const Surface& surface) const { return materials_[static_cast<std::size_t>(surface.bsdf)]; }
 
   std::vector<Surface> surfaces_;
@@ -118,7 +134,8 @@ class Scene {
   std::vector<Light> lights_;
   std::vector<std::uint32_t> infinite_lights_;
   std::optional<LightSampler> light_sampler_;
-  bool has_masks_;
+  std::shared_ptr<const HomogeneousMedium> ambient_medium_;
+  bool has_masks_, has_media_, has_volumes_;
   Bvh bvh_;
   ThinLens camera_;
   Filter filter_;

@@ -1,7 +1,7 @@
 #pragma once
-/// Rays through surfaces with masks.
+/// Rays through surfaces with masks, and through media.
 
-#include <render/scene/scene.h>
+#include <render/scene/medium_stack.h>
 
 #include <mc/table/discrete.h>
 
@@ -48,6 +48,35 @@ template <class SceneType>
   return 0;
 }
 
+// As transmittance(). Surfaces with masks separate media.
+template <class SceneType>
+[[gnu::noinline]] Spectrum transmittance_with_media(const SceneType& scene, Ray ray,
+                                                    const std::optional<SurfacePoint>& end, Float length,
+                                                    MediumStack media, std::uint64_t& rays) {
+  const auto through_medium = [&](Float distance) -> Spectrum {
+    return media.current ? media.current->transmittance(distance) : Spectrum(Spectrum::Ones());
+  };
+  if (!scene.has_masks()) {
+    ++rays;
+    return scene.occluded(ray) ? Spectrum(Spectrum::Zero()) : through_medium(length);
+  }
+  Spectrum share = Spectrum::Ones();
+  while (!is_black(share)) {
+    ++rays;
+    const auto hit = scene.intersect(ray);
+    if (!hit) return share * through_medium(length);
+    const SurfacePoint point = scene.surface_point(ray, *hit);
+    const Float distance = std::min((point.p - ray.o).norm(), length); // the ray may have a direction of any length
+    share *= (1 - scene.opacity(*hit, point)) * through_medium(distance);
+    length -= distance;
+    media = media.beyond(scene.surface(*hit).interior.get(), ray.d.dot(point.ng) < 0);
+    const std::optional<Ray> rest = end ? point.spawn_ray_to(*end, ray.d) : continue_past(ray, *hit, point);
+    if (!rest) break;
+    ray = *rest;
+  }
+  return Spectrum::Zero();
+}
+
 } // namespace detail
 
 /// The nearest hit that the ray does not pass. `ray` becomes the rest of the ray beyond the last passed surface.
@@ -81,6 +110,55 @@ Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::op
     return detail::shadow_transmittance_with_masks(scene, ray, end, rays);
   ++rays;
   return scene.occluded(ray) ? Float(0) : Float(1);
+}
+
+/// As shadow_transmittance, with what media on the way absorb and scatter away, of each colour channel.
+///   length : length of the ray on which media act [scene units]; it may be infinite.
+///   media  : media at the origin of the ray.
+template <class SceneType>
+Spectrum transmittance(const SceneType& scene, const Ray& ray, const std::optional<SurfacePoint>& end, Float length,
+                       const MediumStack& media, std::uint64_t& rays) {
+  if (scene.has_media()) [[unlikely]]
+    return detail::transmittance_with_media(scene, ray, end, length, media, rays);
+  return Spectrum::Constant(shadow_transmittance(scene, ray, end, rays));
+}
+
+/// The end of an edge of a path: a point of scattering in a medium, a hit, or neither if the path leaves the scene.
+struct EdgeEnd {
+  std::optional<Vec3> scattering; ///< The point at which MediumStack::current scatters the path.
+  std::optional<Hit> hit;         ///< The hit of the ray.
+};
+
+/// Samples an edge of a path. Masks, media and scattering are sampled so that beta stays an unbiased throughput.
+///   ray   : becomes the rest of the ray beyond the last passed surface.
+///   from  : origin of the edge, on the line of the ray; the medium begins there.
+///   media : becomes the media at the end.
+///   beta  : throughput, not black; multiplied by the weight of the edge.
+///   rays  : counts the rays traced.
+template <class SceneType, class Stream>
+[[gnu::noinline]] EdgeEnd sample_edge_in_media(const SceneType& scene, Ray& ray, Vec3 from, MediumStack& media,
+                                               Spectrum& beta, Stream& stream, std::uint64_t& rays) {
+  for (;;) {
+    ++rays;
+    const auto hit = scene.intersect(ray);
+    const SurfacePoint point = hit ? scene.surface_point(ray, *hit) : SurfacePoint();
+    const Float length = hit ? (point.p - from).norm() : mc::infinity<Float>;
+    if (media.current && media.current->scatters()) {
+      const auto edge = media.current->sample_edge(beta, stream.next2(), length);
+      beta *= edge.weight;
+      if (edge.distance) return {Vec3(from + *edge.distance * ray.d), {}};
+    } else if (media.current) {
+      beta *= media.current->transmittance(length);
+    }
+    if (!hit) return {};
+    const Float opacity = scene.opacity(*hit, point);
+    const bool passes =
+        opacity < 1 && (opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0);
+    if (!passes || is_black(beta)) return {{}, hit};
+    media = media.beyond(scene.surface(*hit).interior.get(), ray.d.dot(point.ng) < 0);
+    ray = continue_past(ray, *hit, point);
+    from = point.p;
+  }
 }
 
 } // namespace render

@@ -150,7 +150,7 @@ TEST(Bvh, RaysFromNeedlesHitWhatExactArithmeticFinds) {
   std::vector<Triangle> triangles;
   for (std::uint32_t i = 0; i < 700; ++i) {
     const Vec3 middle = Float(0.25) * in_cube(random), along = direction(random) * Float(0.1),
-               across = mc::cross<Float>(along, direction(random)) * Float(0.01);
+               across = mc::cross<Float>(along, direction(random)) * Float(0.03);
     positions.insert(positions.end(), {middle - along, middle + along, middle + across});
     triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
@@ -158,8 +158,8 @@ TEST(Bvh, RaysFromNeedlesHitWhatExactArithmeticFinds) {
   const Bvh bvh{std::span<const Shape>(shapes)};
   int hits = 0;
   for (int rays = 0; rays < 700;) {
-    const Vec3 o(Float(0.25) * (2 * random.uniform<Float>() - 1), Float(0.25) * (2 * random.uniform<Float>() - 1), -4);
-    const Ray arrives{o, Vec3(0, 0, 1)};
+    const Vec2 at = Float(0.25) * (2 * random.point<Float, 2>() - Vec2::Ones());
+    const Ray arrives{Vec3(at.x(), at.y(), -4), Vec3(0, 0, 1)};
     const auto hit = bvh.intersect(arrives);
     if (!hit) continue;
     ++rays;

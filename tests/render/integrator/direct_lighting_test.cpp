@@ -26,8 +26,7 @@ struct Floor {
     SurfacePoint point;
     point.p = Vec3::Zero();
     point.ng = point.ns = Vec3::UnitZ();
-    const Surface surface{nullptr, {}, {}};
-    const SurfaceInteraction<Bsdf> isect{{bsdf, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()}, surface, {}};
+    const Interaction<Bsdf> isect{{bsdf, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()}, nullptr, {}};
     const mc::IndependentPairs numbers(1, 0);
     mc::IndependentPathStream<Float> stream(numbers, 0);
     const Strategy& mis = strategy_from("mis");

@@ -44,7 +44,7 @@ TEST(SceneBuilder, ErrorsNameTheProblem) {
   const BsdfId lattice = builder.add(holes);
   const HomogeneousMedium ink(Spectrum::Ones());
   EXPECT_THAT(message([&] { builder.add(ball, {.bsdf = lattice, .interior = ink}); }),
-              testing::HasSubstr("shape 1 holds what absorbs"));
+              testing::HasSubstr("shape 1 holds a medium"));
   // Rejected parts are not in the scene.
   const Scene scene = builder.build();
   EXPECT_EQ(scene.surfaces().size(), 1u);

@@ -137,4 +137,9 @@ BsdfId Context::default_bsdf(bool is_lamp) {
   return *bsdf;
 }
 
+BsdfId Context::invisible_material() {
+  if (!invisible_material_) invisible_material_ = builder.add(Material::invisible());
+  return *invisible_material_;
+}
+
 } // namespace render::mitsuba

@@ -63,6 +63,8 @@ class Context {
   BsdfId bsdf(const XmlElement& element);
   /// Default BSDF of shapes without one: diffuse, or black for lamps.
   BsdfId default_bsdf(bool is_lamp);
+  /// Material of shapes that are boundaries of media alone.
+  BsdfId invisible_material();
 
   /// The texture that a <texture> describes or a <ref> references.
   Texture texture(const XmlElement& element);
@@ -93,6 +95,7 @@ class Context {
   std::set<std::string> referenced_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
   std::array<std::optional<BsdfId>, 2> default_bsdfs_; ///< for other shapes, and for lamps
+  std::optional<BsdfId> invisible_material_;
   std::set<const XmlElement*> being_read_;
   std::map<const XmlElement*, Texture> textures_;
   /// By path and meaning of the codes: 0 as the file says, -1 sRGB, or the exponent.

@@ -32,6 +32,7 @@ class Reader {
   SceneFile read() {
     for (const XmlElement& e : root_.children) read(e);
     if (!sensor_) root_.fail("there is no <sensor>; a camera is needed");
+    set_ambient_medium();
     context_.builder.set(sensor_->camera);
     context_.builder.set(sensor_->film.filter);
     const IntegratorSettings integrator = integrator_.value_or(IntegratorSettings());
@@ -52,6 +53,7 @@ class Reader {
     else if (e.tag == "bsdf") named_bsdf(e);
     else if (e.tag == "texture") named_texture(e);
     else if (e.tag == "medium") named(e, medium_plugins());
+    else if (e.tag == "phase") named(e, phase_plugins());
     else if (e.tag == "film") named(e, film_plugins());
     else if (e.tag == "rfilter") named(e, filter_plugins());
     else if (e.tag == "sampler") named(e, sampler_plugins());
@@ -60,12 +62,31 @@ class Reader {
     else if (e.tag != "default")
       e.fail(
           "unknown element; use default, include, path, integrator, sensor, bsdf, texture, shape or emitter; or, for "
-          "a <ref>, film, rfilter, sampler or medium");
+          "a <ref>, film, rfilter, sampler, medium or phase");
   }
 
   template <class T> std::optional<T>& only_one(const XmlElement& e, std::optional<T>& place) {
     if (place) e.fail(fmt::format("a second <{}>; only one is allowed", e.tag));
     return place;
+  }
+
+  // The sensor's medium is the ambient one, unless a shape has it inside. What surrounds a shape must be one of these.
+  void set_ambient_medium() {
+    const std::optional<NamedMedium>& own = sensor_->medium;
+    if (own && !interiors_.contains(own->element)) context_.builder.set_ambient(own->medium);
+    for (const auto& [shape, medium] : exteriors_)
+      if (!interiors_.contains(medium) && !(own && own->element == medium))
+        shape->fail(
+            fmt::format("its exterior is the medium of line {}, which is neither the sensor's nor inside a shape; "
+                        "add it to the sensor by a <ref>, or remove it",
+                        medium->line));
+  }
+
+  // A boundary without BSDF is invisible in Mitsuba 0.6 and lajolla.
+  BsdfId bsdf_of(const ShapeDescription& s) {
+    if (s.bsdf) return *s.bsdf;
+    if ((s.interior || s.exterior) && !s.emission && !context_.is_mitsuba_2()) return context_.invisible_material();
+    return context_.default_bsdf(s.emission.has_value());
   }
 
   void emitter(const XmlElement& e) {
@@ -105,12 +126,16 @@ class Reader {
 
   void shape(const XmlElement& e) {
     ShapeDescription s = read_plugin(shape_plugins(), e, context_);
-    const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
+    const BsdfId bsdf = bsdf_of(s);
+    if (s.interior) interiors_.insert(s.interior->element);
+    if (s.exterior) exteriors_.emplace_back(&e, s.exterior->element);
+    std::optional<HomogeneousMedium> interior;
+    if (s.interior) interior = s.interior->medium;
+    else if (s.exterior && context_.builder.is_clear(bsdf)) interior = HomogeneousMedium(Spectrum::Zero());
     surface_names_.push_back(name_of(e));
     if (s.emission) light_names_.push_back(name_of(e));
     mc::with_context(e.where(), [&] {
-      context_.builder.add(std::move(s.shape),
-                           {bsdf, s.emission, s.importance_target, s.interior, s.missing_uv_reason});
+      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.importance_target, interior, s.missing_uv_reason});
     });
   }
 
@@ -118,6 +143,8 @@ class Reader {
   Context context_;
   std::optional<IntegratorSettings> integrator_;
   std::optional<SensorSettings> sensor_;
+  std::set<const XmlElement*> interiors_;                                  ///< Media inside shapes.
+  std::vector<std::pair<const XmlElement*, const XmlElement*>> exteriors_; ///< Shapes with the media around them.
   bool has_background_ = false;
   std::vector<std::string> surface_names_, light_names_;
 };

@@ -47,8 +47,11 @@ bool is_in_snake_case(std::string_view word, std::string_view name) {
 } // namespace
 
 bool Declaration::matches(const XmlElement& child, const Context& context) const {
-  if (nested()) return std::find(tags.begin(), tags.end(), context.tag_of(child)) != tags.end();
+  const auto is_one_of = [](std::string_view word, const std::vector<std::string>& words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
   const std::string word = child.attribute_or("name", "");
+  if (nested()) return is_one_of(context.tag_of(child), tags) && (roles.empty() || is_one_of(word, roles));
   return word == name || is_in_snake_case(word, name);
 }
 

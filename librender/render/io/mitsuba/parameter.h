@@ -26,6 +26,8 @@ struct Declaration {
       {}; ///< For a parameter that only lajolla has: the equivalent in Mitsuba; empty: Mitsuba has the parameter.
   std::string lajolla_alternative =
       {}; ///< For a parameter that lajolla ignores: the equivalent in lajolla, as a warning; empty: lajolla has it.
+  std::vector<std::string> roles =
+      {}; ///< Name attributes of a nested plugin, "" if it needs none; empty: the name does not matter.
 
   /// Whether the parameter is a nested plugin.
   bool nested() const { return name.starts_with('<'); }

@@ -13,8 +13,9 @@ namespace {
 void require_reference(const XmlElement& ref, const PluginText& row, const Context& context) {
   std::vector<std::string> tags;
   for (const Declaration& d : row.parameters) {
-    if (d.nested()) tags.insert(tags.end(), d.tags.begin(), d.tags.end());
-    else if (d.matches(ref, context)) return;
+    if (!d.nested() && d.matches(ref, context)) return;
+    for (const std::string& tag : d.tags)
+      if (d.nested() && std::find(tags.begin(), tags.end(), tag) == tags.end()) tags.push_back(tag);
   }
   if (!tags.empty()) context.resolve(ref, tags);
 }

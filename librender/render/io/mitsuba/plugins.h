@@ -5,14 +5,21 @@
 
 namespace render::mitsuba {
 
-/// A shape with its material, emission and interior.
+/// A medium, and the element that describes it.
+struct NamedMedium {
+  HomogeneousMedium medium;  ///< The medium.
+  const XmlElement* element; ///< Its element: media of one element are the same medium.
+};
+
+/// A shape with its material, emission and media.
 struct ShapeDescription {
-  Shape shape;                               ///< The geometry.
-  std::optional<BsdfId> bsdf;                ///< Its BSDF; nullopt: the default.
-  std::optional<Emission> emission;          ///< Its emission, if it is a light.
-  bool importance_target;                    ///< Whether guiding strategies also sample directions to the shape.
-  std::optional<HomogeneousMedium> interior; ///< The medium inside, if there is one.
-  std::string missing_uv_reason;             ///< Why a mesh has no texture coordinates.
+  Shape shape;                         ///< The geometry.
+  std::optional<BsdfId> bsdf;          ///< Its BSDF; nullopt: the default.
+  std::optional<Emission> emission;    ///< Its emission, if it is a light.
+  bool importance_target;              ///< Whether guiding strategies also sample directions to the shape.
+  std::optional<NamedMedium> interior; ///< The medium inside, if there is one.
+  std::optional<NamedMedium> exterior; ///< The medium around it, if the file names one.
+  std::string missing_uv_reason;       ///< Why a mesh has no texture coordinates.
 };
 
 /// Parameters of a film.
@@ -29,9 +36,10 @@ struct IntegratorSettings {
 
 /// Parameters of a sensor.
 struct SensorSettings {
-  ThinLens camera;   ///< The camera.
-  FilmSettings film; ///< Its film.
-  int spp;           ///< Samples per pixel.
+  ThinLens camera;                        ///< The camera.
+  FilmSettings film;                      ///< Its film.
+  int spp;                                ///< Samples per pixel.
+  std::optional<NamedMedium> medium = {}; ///< The medium around the camera, if there is one.
 };
 
 const Plugins<IntegratorSettings>& integrator_plugins(); ///< Rows of <integrator>.
@@ -43,8 +51,11 @@ const Plugins<Material>& bsdf_plugins();          ///< Rows of <bsdf>.
 const Plugins<Texture>& texture_plugins();        ///< Rows of <texture>.
 const Plugins<ShapeDescription>& shape_plugins(); ///< Rows of <shape>.
 const Plugins<Emission>& surface_emitter_plugins(); ///< Rows of <emitter> inside a shape.
-const Plugins<HomogeneousMedium>& medium_plugins(); ///< Rows of <medium> inside a shape.
-const Plugins<Light>& emitter_plugins();            ///< Rows of <emitter> in the scene.
+const Plugins<HomogeneousMedium>& medium_plugins(); ///< Rows of <medium>.
+const Plugins<PhaseFunction>& phase_plugins();      ///< Rows of <phase> inside a medium.
+/// The medium that a <medium> describes or a <ref> references.
+NamedMedium read_medium(const XmlElement& e, Context& context);
+const Plugins<Light>& emitter_plugins(); ///< Rows of <emitter> in the scene.
 
 /// One kind of plugin with its rows.
 struct Kind {

@@ -10,7 +10,7 @@ struct Reason {
   std::string_view tag, type, text;
 };
 
-constexpr std::string_view no_scattering = "scattering media are not supported; path renders absorbing media";
+constexpr std::string_view other_phase_functions = "this phase function is not supported; use hg or isotropic";
 constexpr std::string_view no_gradients = "derivatives of a picture are not supported; use path";
 constexpr std::string_view no_curves = "curves are not supported; convert them to a mesh";
 constexpr std::string_view no_layers = "layers are not supported; use plastic or roughplastic";
@@ -23,9 +23,6 @@ constexpr std::string_view no_such_filter = "filters with negative weights are n
 constexpr std::string_view no_spectra = "spectra of a wavelength are not supported; colours are RGB";
 
 constexpr auto reasons = std::to_array<Reason>({
-    {"integrator", "volpath", no_scattering},
-    {"integrator", "volpathmis", no_scattering},
-    {"integrator", "volpath_simple", no_scattering},
     {"integrator", "prb", no_gradients},
     {"integrator", "prb_basic", no_gradients},
     {"integrator", "prbvolpath", no_gradients},
@@ -54,7 +51,6 @@ constexpr auto reasons = std::to_array<Reason>({
     {"bsdf", "bump", no_bumps},
     {"bsdf", "blendbsdf", "mixtures of BSDFs are not supported; use mask for holes, or one of the BSDFs inside it"},
     {"bsdf", "mixturebsdf", "mixtures of BSDFs are not supported; use one of the BSDFs inside it"},
-    {"bsdf", "null", "surfaces without effect are not supported; remove the shape, or use mask with opacity 0"},
     {"bsdf", "phong", "use roughplastic"},
     {"bsdf", "ward", "use roughconductor"},
     {"bsdf", "coating", no_layers},
@@ -89,9 +85,14 @@ constexpr auto reasons = std::to_array<Reason>({
     {"rfilter", "lanczos", no_such_filter},
     {"texture", "mesh_attribute", "colours of vertices are not supported; use bitmap"},
     {"texture", "volume", "use bitmap"},
-    {"medium", "heterogeneous", "media of varying density are not supported; use homogeneous, which absorbs only"},
-    {"phase", "isotropic", "scattering media are not supported; a homogeneous medium absorbs only"},
-    {"phase", "hg", "scattering media are not supported; a homogeneous medium absorbs only"},
+    {"medium", "heterogeneous", "media of varying density are not supported; use homogeneous"},
+    {"phase", "rayleigh", other_phase_functions},
+    {"phase", "blendphase", other_phase_functions},
+    {"phase", "mixturephase", other_phase_functions},
+    {"phase", "tabphase", other_phase_functions},
+    {"phase", "sggx", other_phase_functions},
+    {"phase", "microflake", other_phase_functions},
+    {"phase", "kkay", other_phase_functions},
 });
 
 } // namespace

@@ -121,6 +121,52 @@ TEST_F(Meaning, AMediumBeginsAtTheLens) {
   }
 }
 
+// The boundary of a medium without BSDF is invisible in Mitsuba 0.6 and lajolla, and diffuse since Mitsuba 2.
+TEST_F(Meaning, ABoundaryWithoutABsdfIsInvisible) {
+  const std::string fog = "<medium type=\"homogeneous\" name=\"{}\"><rgb name=\"sigmaA\" value=\"1\"/></medium>";
+  const std::string ball = sky + "<shape type=\"sphere\">" + fmt::format(fmt::runtime(fog), "interior");
+  for (const render::Dialect dialect : {render::Dialect::mitsuba, render::Dialect::lajolla})
+    EXPECT_NEAR(seen("0,0,4", "0,0,0", ball + "</shape>", "", dialect)[0], std::exp(-2), 1e-5);
+  EXPECT_NEAR(seen("0,0,4", "0,0,0", ball + "<bsdf type=\"null\"/></shape>")[0], std::exp(-2), 1e-5);
+  EXPECT_NEAR(seen("0,0,4", "0,0,0", ball + "<bsdf type=\"diffuse\"/></shape>")[0], 0.5, 1e-3);
+}
+
+// The sensor's medium surrounds all shapes, unless one of them has it inside. Glass whose exterior is named and whose
+// interior is not holds nothing.
+TEST_F(Meaning, TheSensorsMediumIsAmbient) {
+  const std::string fog = "<medium type=\"homogeneous\" id=\"fog\"><rgb name=\"sigmaA\" value=\".5\"/></medium>",
+                    around = "<ref name=\"exterior\" id=\"fog\"/>", in_fog = "<ref id=\"fog\"/>";
+  const std::string lamp = "<shape type=\"rectangle\">" + area(1) + around + "</shape>";
+  EXPECT_NEAR(seen("0,0,4", "0,0,0", fog + lamp, in_fog)[0], std::exp(-0.5 * 4), 1e-5);
+  const std::string bubble = "<shape type=\"sphere\"><point name=\"center\" z=\"2\"/><bsdf type=\"dielectric\"><float "
+                             "name=\"intIOR\" value=\"1\"/><float name=\"extIOR\" value=\"1\"/></bsdf>" +
+                             around + "</shape>";
+  EXPECT_NEAR(seen("0,0,4", "0,0,0", fog + lamp + bubble, in_fog)[0], std::exp(-0.5 * 2), 1e-5);
+  const std::string room = "<shape type=\"sphere\"><float name=\"radius\" value=\"6\"/><ref name=\"interior\" "
+                           "id=\"fog\"/></shape>";
+  EXPECT_NEAR(seen("0,0,4", "0,0,0", fog + lamp + room, in_fog)[0], std::exp(-0.5 * 4), 1e-5);
+  EXPECT_NEAR(seen("0,0,9", "0,0,0", fog + lamp + room, in_fog)[0], std::exp(-0.5 * 6), 1e-5);
+}
+
+// sigmaT and albedo, or the parts; the scale multiplies both. A ball that scatters all is as bright as the sky. The
+// bounds are four standard errors of 256 samples.
+TEST_F(Meaning, MediaAreGivenByPartsOrByAlbedo) {
+  const auto ball = [&](const std::string& inside) {
+    return sky + "<shape type=\"sphere\"><bsdf type=\"null\"/><medium type=\"homogeneous\" name=\"interior\">" +
+           inside + "</medium></shape>";
+  };
+  const std::string by_sum = "<float name=\"sigma_t\" value=\"1.5\"/><rgb name=\"albedo\" value=\"0, 0, 1\"/><float "
+                             "name=\"scale\" value=\"2\"/><phase type=\"hg\"><float name=\"g\" value=\"0.5\"/></phase>";
+  const Spectrum clear = seen("0,0,4", "0,0,0", ball(by_sum));
+  EXPECT_NEAR(clear[0], std::exp(-2 * 3), 0.02);
+  EXPECT_NEAR(clear[2], 1, 0.02);
+  const Spectrum parts = seen("0,0,4", "0,0,0",
+                              ball("<rgb name=\"sigmaA\" value=\"3, 3, 0\"/><rgb name=\"sigmaS\" "
+                                   "value=\"0, 0, 3\"/><phase type=\"isotropic\"/>"));
+  EXPECT_NEAR(parts[0], std::exp(-2 * 3), 0.02);
+  EXPECT_NEAR(parts[2], 1, 0.02);
+}
+
 // Opaque BSDFs reflect on the side of the normal, unless they are inside <twosided>. In lajolla they do on both.
 TEST_F(Meaning, OpaqueBsdfsAreOneSided) {
   const std::string half = "<rgb name=\"specularReflectance\" value=\"0.5\"/>",

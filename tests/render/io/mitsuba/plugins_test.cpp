@@ -26,6 +26,7 @@ const std::map<std::string, Placement> places = {
     {"texture", {"", ""}},
     {"shape", {"", ""}},
     {"medium", {"<shape type=\"sphere\">", "</shape>"}},
+    {"phase", {"<shape type=\"sphere\"><medium type=\"homogeneous\">", "</medium></shape>"}},
     {"emitter in a shape", {"<shape type=\"sphere\">", "</shape>"}},
     {"emitter", {"", ""}},
 };

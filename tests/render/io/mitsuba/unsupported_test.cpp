@@ -10,7 +10,7 @@ using render::mitsuba::why_unsupported;
 using testing::HasSubstr;
 
 TEST(Unsupported, GivesTheReason) {
-  EXPECT_THAT(why_unsupported("integrator", "volpath"), HasSubstr("scattering media are not supported"));
+  EXPECT_THAT(why_unsupported("integrator", "bdpt"), HasSubstr("bidirectional path tracing is not supported"));
   EXPECT_THAT(why_unsupported("emitter", "projector"), HasSubstr("use point"));
   EXPECT_EQ(why_unsupported("emitter", "pont"), "");
   EXPECT_EQ(why_unsupported("shape", "spot"), "");

@@ -352,6 +352,7 @@ const Plugins<Material>& bsdf_plugins() {
                        reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, on both sides of the surface", make_twosided,
                        inner_bsdf("what covers both sides")),
+      plugin<Material>("null", "nothing: the boundary of a medium alone", [] { return Material::invisible(); }),
       plugin<Material>(
           "mask", "the BSDF inside it, with holes", make_mask,
           reflectance_or_texture("opacity",

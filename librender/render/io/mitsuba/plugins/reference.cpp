@@ -68,8 +68,12 @@ std::vector<Kind> all_plugins() {
       {"bsdf", "the material of a shape; of the scene with an id, or inside a shape", texts(bsdf_plugins())},
       {"texture", "a colour that varies; of the scene with an id, or a parameter", texts(texture_plugins())},
       {"shape", "the geometry", texts(shape_plugins())},
-      {"medium", "inside a shape: its interior; if one shape lies in another, both name the medium between them",
+      {"medium",
+       "inside a shape: its interior, or named exterior what is around it; inside a sensor: what is around the camera. "
+       "If "
+       "one shape lies in another, both name the medium between them",
        texts(medium_plugins())},
+      {"phase", "inside a medium", texts(phase_plugins())},
       {"emitter in a shape", "the light of its surface", texts(surface_emitter_plugins())},
       {"emitter", "of the scene: lights that are no shapes", texts(emitter_plugins())},
   };

@@ -78,12 +78,30 @@ Parameter<int> sampler_of_sensor() {
   return nested("sampler", "how many samples", sampler_plugins).with_default(default_spp, "independent");
 }
 
+Parameter<std::optional<NamedMedium>> medium_of_sensor() {
+  return optional(Parameter<NamedMedium>{
+      {"<medium>", "medium", "", {"medium"}, "what is around the camera, and outside of shapes without it inside"},
+      read_medium,
+      {},
+      {}});
+}
+
+template <class Make> struct InMedium {
+  Make make;
+  template <class... Values>
+  SensorSettings operator()(const std::optional<NamedMedium>& medium, const Values&... values) const {
+    SensorSettings settings = make(values...);
+    settings.medium = medium;
+    return settings;
+  }
+};
+
 // A row for a camera with a field of view.
 template <class Make, class Fov, class... V>
 Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make, const Parameter<Fov>& fov,
                                      const Parameter<V>&... parameters) {
   return plugin<SensorSettings>(
-      std::move(name), std::move(meaning), make, frame(), fov,
+      std::move(name), std::move(meaning), InMedium<Make>{make}, medium_of_sensor(), frame(), fov,
       choice("fovAxis", {"x", "y", "smaller", "larger", "diagonal"}, "the side of the film that fov spans", 0),
       near_clip(), far_clip(),
       optional(number("focusDistance", "scene units", "to the plane in focus; of no effect for a pinhole"))
@@ -199,6 +217,15 @@ IntegratorSettings make_path(int max_depth) {
 
 IntegratorSettings make_same(const IntegratorSettings& inner) { return inner; }
 
+Plugin<IntegratorSettings> path(std::string name, std::string meaning) {
+  return plugin<IntegratorSettings>(std::move(name), std::move(meaning), make_path,
+                                    integer("maxDepth", "longest path in edges; -1: no limit", -1))
+      .accepting({no_effect("rrDepth", "Russian roulette follows the throughput"),
+                  no_effect("strictNormals", "the geometry always decides on which side light is"),
+                  no_effect("version", "lajolla's, which have the same mean where they apply"),
+                  only(false, "hideEmitters", "lights are seen")});
+}
+
 Plugin<IntegratorSettings> wrapper(std::string name, std::string meaning) {
   return plugin<IntegratorSettings>(std::move(name), std::move(meaning), make_same,
                                     nested("integrator", "what renders the picture", integrator_plugins));
@@ -226,7 +253,8 @@ const Plugins<SensorSettings>& sensor_plugins() {
           optional(number("focalLength", "scene units", "of the lens; fov says how much is seen (ours)"))),
       plugin<SensorSettings>("orthographic",
                              "parallel rays; the film is twice as wide as the x axis of toWorld is long",
-                             make_orthographic, frame(), near_clip(), far_clip(), film_of_sensor(), sampler_of_sensor())
+                             InMedium<decltype(&make_orthographic)>{make_orthographic}, medium_of_sensor(), frame(),
+                             near_clip(), far_clip(), film_of_sensor(), sampler_of_sensor())
           .accepting({no_effect("focusDistance", "parallel rays have no focus")}),
   };
   return rows;
@@ -261,11 +289,10 @@ const Plugins<int>& sampler_plugins() {
 
 const Plugins<IntegratorSettings>& integrator_plugins() {
   static const Plugins<IntegratorSettings> rows = {
-      plugin<IntegratorSettings>("path", "paths from the camera; --strategy says how they find the lights", make_path,
-                                 integer("maxDepth", "longest path in edges; -1: no limit", -1))
-          .accepting({no_effect("rrDepth", "Russian roulette follows the throughput"),
-                      no_effect("strictNormals", "the geometry always decides on which side light is"),
-                      only(false, "hideEmitters", "lights are seen")}),
+      path("path", "paths from the camera, in media too; --strategy says how they find the lights"),
+      path("volpath", "as path"),
+      path("volpathmis", "as path"),
+      path("volpath_simple", "as path"),
       plugin<IntegratorSettings>("direct", "what lights send by way of one surface: paths of at most two edges",
                                  make_direct)
           .accepting({no_effect("shadingSamples", "--spp says it"), no_effect("emitterSamples", "--spp says it"),

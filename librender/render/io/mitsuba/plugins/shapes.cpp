@@ -123,31 +123,27 @@ Parameter<std::optional<BsdfId>> bsdf_of_shape() {
   return p.with_default(std::nullopt, "diffuse; of what shines black");
 }
 
-Parameter<std::optional<HomogeneousMedium>> medium_of_shape() {
-  const Parameter<std::optional<HomogeneousMedium>> p{
-      {"<medium>",
-       "medium",
-       "",
-       {"medium"},
-       "what fills it: where its normals do not point to, up to the next surface"},
-      [](const XmlElement& e, Context& context) {
-        if (e.attribute_or("name", "interior") != "interior")
-          e.fail("only a medium named 'interior' is supported; beyond a shape nothing absorbs");
-        return std::optional(read_plugin(medium_plugins(), context.resolve(e, {"medium"}), context));
-      },
-      {},
-      {}};
-  return p.with_default(std::nullopt, "none");
+Parameter<std::optional<NamedMedium>> medium_of_shape(const std::string& name, const std::string& meaning,
+                                                      const std::vector<std::string>& roles) {
+  Parameter<NamedMedium> p{{name, "medium", "", {"medium"}, meaning}, read_medium, {}, {}};
+  p.declared.roles = roles;
+  return optional(p);
 }
 
 template <class Make> struct Covered {
   Make make;
   template <class... Values>
   ShapeDescription operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
-                              const std::optional<HomogeneousMedium>& interior, bool importance_target,
-                              const Values&... values) const {
+                              const std::optional<NamedMedium>& interior, const std::optional<NamedMedium>& exterior,
+                              bool importance_target, const Values&... values) const {
     PlacedShape placed = make(values...);
-    return {std::move(placed.shape), bsdf, emission, importance_target, interior, std::move(placed.missing_uv_reason)};
+    return {std::move(placed.shape),
+            bsdf,
+            emission,
+            importance_target,
+            interior,
+            exterior,
+            std::move(placed.missing_uv_reason)};
   }
 };
 
@@ -157,15 +153,31 @@ Plugin<ShapeDescription> shape_plugin(std::string name, std::string meaning, Mak
                                       const Parameter<V>&... parameters) {
   return plugin<ShapeDescription>(
       std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
-      optional(nested("emitter", "makes it shine", surface_emitter_plugins)), medium_of_shape(),
+      optional(nested("emitter", "makes it shine", surface_emitter_plugins)),
+      medium_of_shape("<medium>", "what fills it: where its normals do not point to, up to the next surface",
+                      {"", "interior"}),
+      medium_of_shape("<medium name=\"exterior\">", "the medium around it: that of the sensor, or of a shape around it",
+                      {"exterior"}),
       boolean("guide", "whether the strategies `mixture` and `guides` aim at it (ours)"), parameters...);
 }
 
-HomogeneousMedium make_homogeneous(const Spectrum& absorption, const Spectrum& scattering) {
-  mc::require(is_black(scattering), "sigmaS ({}, {}, {}) must be 0: what scatters is not supported", scattering[0],
-              scattering[1], scattering[2]);
-  return HomogeneousMedium(absorption);
+constexpr const char* per_length = "1 / scene unit";
+
+HomogeneousMedium make_homogeneous(const std::optional<Spectrum>& sigma_a, const std::optional<Spectrum>& sigma_s,
+                                   const std::optional<Spectrum>& sigma_t, const std::optional<Spectrum>& albedo,
+                                   double scale, const PhaseFunction& phase_function) {
+  const bool by_parts = sigma_a || sigma_s, by_sum = sigma_t || albedo;
+  mc::require(by_parts != by_sum, "give sigmaA and sigmaS, or sigmaT and albedo");
+  mc::require(std::isfinite(scale) && scale >= 0, "scale {} must be finite and >= 0", scale);
+  const Spectrum zero = Spectrum::Zero(),
+                 share = checked_reflectance("albedo", albedo.value_or(Spectrum::Constant(Float(0.75)))),
+                 sum = sigma_t.value_or(Spectrum::Ones());
+  const Spectrum absorbed = by_sum ? Spectrum(sum * (1 - share)) : sigma_a.value_or(zero),
+                 scattered = by_sum ? Spectrum(sum * share) : sigma_s.value_or(zero);
+  return HomogeneousMedium(absorbed * Float(scale), scattered * Float(scale), phase_function);
 }
+
+PhaseFunction make_henyey_greenstein(double g) { return PhaseFunction(Float(g)); }
 
 Parameter<Transform> to_world() { return transform("toWorld", "from the shape's space to the scene's"); }
 
@@ -219,11 +231,33 @@ Plugin<ShapeDescription> mesh_plugin(std::string name, std::string meaning, Make
 
 const Plugins<HomogeneousMedium>& medium_plugins() {
   static const Plugins<HomogeneousMedium> rows = {
-      plugin<HomogeneousMedium>("homogeneous", "absorbs alike everywhere, by Beer's law", make_homogeneous,
-                                color("sigmaA", "1 / scene unit", "what is absorbed, >= 0"),
-                                color("sigmaS", "1 / scene unit", "what is scattered: only 0", Spectrum::Zero())),
+      plugin<HomogeneousMedium>(
+          "homogeneous", "absorbs and scatters alike everywhere", make_homogeneous,
+          optional(color("sigmaA", per_length, "what is absorbed, >= 0")).with_default(std::nullopt, "0"),
+          optional(color("sigmaS", per_length, "what is scattered, >= 0")).with_default(std::nullopt, "0"),
+          optional(color("sigmaT", per_length, "both together, >= 0, instead")).with_default(std::nullopt, "1"),
+          optional(color("albedo", "", "share of it that is scattered, in [0, 1]")).with_default(std::nullopt, "0.75"),
+          number("scale", "", 1, "factor of all that is absorbed and scattered, >= 0"),
+          nested("phase", "directions of what is scattered", phase_plugins).with_default(PhaseFunction(), "isotropic"))
+          .accepting({no_effect("hasSpectralExtinction", "channels are sampled in proportion to their light"),
+                      no_effect("sampleEmitters", "--strategy says it")}),
   };
   return rows;
+}
+
+const Plugins<PhaseFunction>& phase_plugins() {
+  static const Plugins<PhaseFunction> rows = {
+      plugin<PhaseFunction>("isotropic", "alike in all directions", [] { return PhaseFunction(); }),
+      plugin<PhaseFunction>(
+          "hg", "the phase function of Henyey and Greenstein", make_henyey_greenstein,
+          number("g", "", 0.8, "mean cosine of the deflection, in (-1, 1); > 0: forward").with_lajolla_default(0, "0")),
+  };
+  return rows;
+}
+
+NamedMedium read_medium(const XmlElement& e, Context& context) {
+  const XmlElement& element = context.resolve(e, {"medium"});
+  return {read_plugin(medium_plugins(), element, context), &element};
 }
 
 const Plugins<ShapeDescription>& shape_plugins() {

@@ -1,4 +1,5 @@
-#include <render/integrator/medium_stack.h>
+#include <render/scene/medium_stack.h>
+
 #include <render/scene/builder.h>
 
 #include <gtest/gtest.h>
@@ -47,25 +48,39 @@ TEST(InitialMedia, FindsCurrentAndOuterMedium) {
     }
 }
 
-TEST(SurfaceInteraction, MediumFollowsSideOfDirection) {
-  const Onion onion({1});
-  const Surface& surface = onion.scene.surfaces()[0];
-  SurfacePoint point;
-  point.p = point.ng = point.ns = Vec3::UnitZ();
-  const Dielectric glass;
-  const HomogeneousMedium outer(Spectrum::Ones());
-  const Vec3 in(0, 0, -1), out(0, 0, 1);
-  const auto from = [&](const Vec3& wo, const MediumStack& before) {
-    return SurfaceInteraction<Dielectric>{{glass, point, mc::Frame<Float>::from_z(point.ns), wo}, surface, before};
-  };
-  const auto entering = from(out, {&outer, nullptr});
-  EXPECT_EQ(onion.ball(entering.media(in).current), 0);
-  EXPECT_EQ(entering.media(in).outer, &outer);
-  EXPECT_EQ(entering.media(out).current, &outer);
-  const auto leaving = from(in, {&*surface.interior, &outer});
-  EXPECT_EQ(leaving.media(out).current, &outer);
-  EXPECT_EQ(leaving.media(out).outer, nullptr);
-  EXPECT_EQ(onion.ball(leaving.media(in).current), 0);
+// A fog surrounds two balls, of which the outer one is within it.
+TEST(InitialMedia, AmbientMediumIsOutsideOfAllSurfaces) {
+  SceneBuilder builder;
+  builder.set_ambient(HomogeneousMedium(Spectrum::Constant(Float(0.1))));
+  const BsdfId glass = builder.add(Dielectric());
+  for (const double r : {1.0, 2.0})
+    builder.add(Sphere(Vec3d::Zero(), r), {.bsdf = glass, .interior = HomogeneousMedium(Spectrum::Constant(Float(r)))});
+  const Scene scene = builder.build();
+  const HomogeneousMedium *fog = scene.ambient_medium(), *core = scene.surfaces()[0].interior.get(),
+                          *shell = scene.surfaces()[1].interior.get();
+  ASSERT_NE(fog, nullptr);
+  const auto at = [&](Float z) { return initial_media(scene, {Vec3(0, 0, z), Vec3::UnitX()}); };
+  EXPECT_EQ(at(5).current, fog);
+  EXPECT_EQ(at(Float(1.5)).current, shell);
+  EXPECT_EQ(at(Float(1.5)).outer, fog);
+  EXPECT_EQ(at(0).current, core);
+  EXPECT_EQ(at(0).outer, shell);
+}
+
+TEST(MediumStack, BeyondEntersAndLeaves) {
+  const HomogeneousMedium fog(Spectrum::Ones()), ink(Spectrum::Ones()), inner(Spectrum::Ones());
+  const MediumStack outside{&fog, &fog, &fog};
+  EXPECT_EQ(outside.beyond(nullptr, true).current, &fog);
+  const MediumStack inside = outside.beyond(&ink, true);
+  EXPECT_EQ(inside.current, &ink);
+  EXPECT_EQ(inside.outer, &fog);
+  const MediumStack deep = inside.beyond(&inner, true);
+  EXPECT_EQ(deep.current, &inner);
+  EXPECT_EQ(deep.outer, &ink);
+  const MediumStack back = deep.beyond(&inner, false);
+  EXPECT_EQ(back.current, &ink);
+  EXPECT_EQ(back.outer, &fog);
+  EXPECT_EQ(back.beyond(&ink, false).current, &fog);
 }
 
 } // namespace

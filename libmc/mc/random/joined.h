@@ -1,0 +1,17 @@
+#pragma once
+/// One uniform number of many bits from two of fewer.
+
+#include <mc/core/types.h>
+
+#include <algorithm>
+
+namespace mc {
+
+/// A number in [0,1): u[0], refined by u[1] below its last digit. From two floats it has 48 random bits, which resolve
+/// the tails of unbounded distributions.
+template <Real S> double joined(const Vec2<S>& u) {
+  constexpr double step = static_cast<double>(std::numeric_limits<S>::epsilon()) / 2;
+  return std::min(static_cast<double>(u[0]) + static_cast<double>(u[1]) * step, one_minus_epsilon<double>);
+}
+
+} // namespace mc
