@@ -12,9 +12,10 @@
 namespace mc {
 
 /// Hyperexponential distribution on [0, inf): exponential with one of N rates, which is chosen at random. The distance
-/// to the next collision in a medium whose N colour channels have different extinction is one.
+/// to the next collision in a medium of N colour channels follows it.
 ///   sample : x = -log(1 - u') / rate_i, with u' the part of u within the share p_i; infinite if rate_i = 0.
-///   pdf    : sum of p_i rate_i exp(-rate_i x) [1/length]; 0 for x < 0. Relative error (8 + max(rate) x) eps.
+///   pdf    : sum of p_i rate_i exp(-rate_i x) [1/length] at a finite x; 0 for x < 0. Relative error
+///            (8 + max(rate) x) eps.
 ///   tail   : probability of more than x, the sum of p_i exp(-rate_i x).
 ///   invert : none, because several u give the same x.
 ///   throws : Error unless the weights are finite and >= 0 with a sum > 0, and the rates finite and >= 0. p_i is the

@@ -12,13 +12,13 @@ template <class B> struct Interaction : ShadingPoint<B> {
   const HomogeneousMedium* interior = nullptr;
   MediumStack media_before; ///< Media before the vertex, on the side of the path.
 
-  /// Media beyond the vertex in the direction d.
+  /// Media of a ray that leaves the vertex in the direction d.
   MediumStack media(const Vec3& d) const {
     if (!interior) [[likely]]
       return media_before;
     const bool came_from_inside = this->frame.to_world(this->wo).dot(this->point.ng) < 0;
-    const bool leaves_inside = d.dot(this->point.ng) < 0;
-    return came_from_inside == leaves_inside ? media_before : media_before.beyond(interior, leaves_inside);
+    const bool goes_inside = d.dot(this->point.ng) < 0;
+    return came_from_inside == goes_inside ? media_before : media_before.beyond(interior, goes_inside);
   }
 };
 

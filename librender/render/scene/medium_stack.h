@@ -20,7 +20,8 @@ struct MediumStack {
   }
 };
 
-/// Media at the origin of a ray, from the surfaces that the ray would leave if nothing stopped it.
+/// Media at the origin of a ray: the interiors that the ray, continued through everything, leaves without having
+/// entered them.
 MediumStack initial_media(const Scene& scene, Ray ray);
 
 } // namespace render

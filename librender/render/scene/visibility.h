@@ -48,7 +48,7 @@ template <class SceneType>
   return 0;
 }
 
-// As transmittance(). Surfaces with masks separate media.
+// As transmittance(). Invisible boundaries of media count as masks.
 template <class SceneType>
 [[gnu::noinline]] Spectrum transmittance_with_media(const SceneType& scene, Ray ray,
                                                     const std::optional<SurfacePoint>& end, Float length,
@@ -112,7 +112,7 @@ Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::op
   return scene.occluded(ray) ? Float(0) : Float(1);
 }
 
-/// As shadow_transmittance, with what media on the way absorb and scatter away, of each colour channel.
+/// As shadow_transmittance, times the transmittance of the media on the way, of each colour channel.
 ///   length : length of the ray on which media act [scene units]; it may be infinite.
 ///   media  : media at the origin of the ray.
 template <class SceneType>
@@ -125,12 +125,12 @@ Spectrum transmittance(const SceneType& scene, const Ray& ray, const std::option
 
 /// The end of an edge of a path: a point of scattering in a medium, a hit, or neither if the path leaves the scene.
 struct EdgeEnd {
-  std::optional<Vec3> scattering; ///< The point at which MediumStack::current scatters the path.
+  std::optional<Vec3> scattering; ///< The point at which the current medium scatters the path.
   std::optional<Hit> hit;         ///< The hit of the ray.
 };
 
 /// Samples an edge of a path. Masks, media and scattering are sampled so that beta stays an unbiased throughput.
-///   ray   : becomes the rest of the ray beyond the last passed surface.
+///   ray   : of unit direction; becomes the rest of the ray beyond the last passed surface.
 ///   from  : origin of the edge, on the line of the ray; the medium begins there.
 ///   media : becomes the media at the end.
 ///   beta  : throughput, not black; multiplied by the weight of the edge.
