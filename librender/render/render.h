@@ -47,6 +47,7 @@ struct RenderOptions {
   /// than SplatFilter::max_radius, nor with one sample per pixel.
   bool splat = true;
   /// Whether pixels share paths in tiles; see PathReuseIntegrator. None: if the pilot of adaptive sampling favours it.
+  /// Not in scenes whose media scatter or have invisible boundaries.
   std::optional<bool> tiles;
   int max_depth = -1; ///< Largest number of edges of a path; -1: no limit.
   /// Number of branches as in PathOptions. None: 2, and after a pilot 1 or 2, as it favours. Not with tiles.

@@ -12,10 +12,11 @@
 namespace mc {
 
 /// Hyperexponential distribution on [0, inf): exponential with one of N rates, which is chosen at random. The distance
-/// to the next collision in a medium of N colour channels follows it.
+/// to the next collision in a medium of N colour channels follows it. Unlike a MixtureN of Exponential it has a tail(),
+/// admits rates of 0 and needs no memory.
 ///   sample : x = -log(1 - u') / rate_i, with u' the part of u within the share p_i; infinite if rate_i = 0.
 ///   pdf    : sum of p_i rate_i exp(-rate_i x) [1/length] at a finite x; 0 for x < 0. Relative error
-///            (8 + max(rate) x) eps.
+///            (2 N + 4 + max(rate) x) eps.
 ///   tail   : probability of more than x, the sum of p_i exp(-rate_i x).
 ///   invert : none, because several u give the same x.
 ///   throws : Error unless the weights are finite and >= 0 with a sum > 0, and the rates finite and >= 0. p_i is the
@@ -37,14 +38,16 @@ template <Real S, std::size_t N> class Hyperexponential {
     }
     require(isfinite(sum) && sum > 0, "Hyperexponential: the sum {} of the weights must be finite and > 0",
             static_cast<double>(sum));
-    for (std::size_t i = 0; i < N; ++i) probability_[i] = weights[i] / sum;
+    for (std::size_t i = 0; i < N; ++i) {
+      probability_[i] = weights[i] / sum;
+      if (weights[i] > 0) last_ = i;
+    }
   }
 
   Domain domain() const { return {S(0), S(1 / *std::max_element(rates_.begin(), rates_.end()))}; }
   S sample(S u) const {
     std::size_t i = 0;
-    while (i + 1 < N && u >= probability_[i]) u -= probability_[i++];
-    while (i > 0 && probability_[i] == 0) --i; // u may exceed the rounded sum of the others
+    while (i < last_ && u >= probability_[i]) u -= probability_[i++];
     if (rates_[i] == 0) return infinity<S>;
     return -log_of_complement(clamp_to_unit<S>(u / probability_[i])) / rates_[i];
   }
@@ -71,6 +74,7 @@ template <Real S, std::size_t N> class Hyperexponential {
   }
 
   std::array<S, N> probability_, rates_;
+  std::size_t last_ = 0; ///< The last rate with a weight: it takes what rounding leaves of u.
 };
 
 } // namespace mc

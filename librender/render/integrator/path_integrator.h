@@ -256,7 +256,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   const LightMis& light_mis() const { return light_mis_; }
 
  private:
-  // A vertex within a medium, with the phase function as BSDF and the direction of arrival as axis.
+  // A vertex within a medium, with the phase function as BSDF and the direction of arrival as axis. Media that scatter
+  // need the scene's BSDFs to be of type Bsdf.
   bool scatter_in_medium(const PathState& state, Vertex& vertex, const Vec3& p) const {
     vertex.escapes = false;
     const Vec3 axis = -state.ray.d.normalized();

@@ -31,50 +31,66 @@ template <class SceneType, class Passes>
   }
 }
 
-template <class SceneType>
-[[gnu::noinline]] Float shadow_transmittance_with_masks(const SceneType& scene, Ray ray,
-                                                        const std::optional<SurfacePoint>& end, std::uint64_t& rays) {
-  Float share = 1;
-  while (share > 0) {
+template <class SceneType> bool is_unoccluded(const SceneType& scene, const Ray& ray, std::uint64_t& rays) {
+  ++rays;
+  return !scene.occluded(ray);
+}
+
+// Whether a shadow ray arrives. cross(ray, hit, point) is called for every surface on its way, and returns whether
+// light passes that surface.
+template <class SceneType, class Cross>
+bool arrives_through_masks(const SceneType& scene, Ray ray, const std::optional<SurfacePoint>& end, std::uint64_t& rays,
+                           const Cross& cross) {
+  for (;;) {
     ++rays;
     const auto hit = scene.intersect(ray);
-    if (!hit) return share;
+    if (!hit) return true;
     const SurfacePoint point = scene.surface_point(ray, *hit);
-    share *= 1 - scene.opacity(*hit, point);
+    if (!cross(ray, *hit, point)) return false;
     const std::optional<Ray> rest = end ? point.spawn_ray_to(*end, ray.d) : continue_past(ray, *hit, point);
-    if (!rest) return 0;
+    if (!rest) return false;
     ray = *rest;
   }
-  return 0;
+}
+
+template <class SceneType>
+[[gnu::noinline]] Float shadow_transmittance_with_masks(const SceneType& scene, const Ray& ray,
+                                                        const std::optional<SurfacePoint>& end, std::uint64_t& rays) {
+  Float share = 1;
+  const auto cross = [&](const Ray&, const Hit& hit, const SurfacePoint& point) {
+    share *= 1 - scene.opacity(hit, point);
+    return share > 0;
+  };
+  return arrives_through_masks(scene, ray, end, rays, cross) ? share : Float(0);
 }
 
 // As transmittance(). Invisible boundaries of media count as masks.
 template <class SceneType>
-[[gnu::noinline]] Spectrum transmittance_with_media(const SceneType& scene, Ray ray,
+[[gnu::noinline]] Spectrum transmittance_with_media(const SceneType& scene, const Ray& ray,
                                                     const std::optional<SurfacePoint>& end, Float length,
                                                     MediumStack media, std::uint64_t& rays) {
-  const auto through_medium = [&](Float distance) -> Spectrum {
-    return media.current ? media.current->transmittance(distance) : Spectrum(Spectrum::Ones());
-  };
-  if (!scene.has_masks()) {
-    ++rays;
-    return scene.occluded(ray) ? Spectrum(Spectrum::Zero()) : through_medium(length);
-  }
   Spectrum share = Spectrum::Ones();
-  while (!is_black(share)) {
-    ++rays;
-    const auto hit = scene.intersect(ray);
-    if (!hit) return share * through_medium(length);
-    const SurfacePoint point = scene.surface_point(ray, *hit);
-    const Float distance = std::min((point.p - ray.o).norm(), length); // the ray may have a direction of any length
-    share *= (1 - scene.opacity(*hit, point)) * through_medium(distance);
+  const auto pass_medium = [&](Float distance) {
+    if (media.current) share *= media.current->transmittance(distance);
+  };
+  const auto cross = [&](const Ray& from, const Hit& hit, const SurfacePoint& point) {
+    const Float distance = std::min((point.p - from.o).norm(), length); // the ray may have a direction of any length
+    pass_medium(distance);
+    share *= 1 - scene.opacity(hit, point);
     length -= distance;
-    media = media.beyond(scene.surface(*hit).interior.get(), ray.d.dot(point.ng) < 0);
-    const std::optional<Ray> rest = end ? point.spawn_ray_to(*end, ray.d) : continue_past(ray, *hit, point);
-    if (!rest) break;
-    ray = *rest;
-  }
-  return Spectrum::Zero();
+    media = media.beyond(scene.surface(hit).interior.get(), from.d.dot(point.ng) < 0);
+    return !is_black(share);
+  };
+  const bool arrives =
+      scene.has_masks() ? arrives_through_masks(scene, ray, end, rays, cross) : is_unoccluded(scene, ray, rays);
+  if (!arrives) return Spectrum::Zero();
+  pass_medium(length);
+  return share;
+}
+
+// Whether a ray passes a surface, with probability 1 - opacity.
+template <class Stream> bool sample_passage(Float opacity, Stream& stream) {
+  return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
 }
 
 } // namespace detail
@@ -94,9 +110,7 @@ std::optional<Hit> nearest_hit(const SceneType& scene, Ray& ray, std::uint64_t& 
 /// As nearest_hit; the ray passes a surface with probability 1 - opacity.
 template <class SceneType, class Stream>
 std::optional<Hit> sample_nearest_hit(const SceneType& scene, Ray& ray, Stream& stream, std::uint64_t& rays) {
-  return nearest_hit(scene, ray, rays, [&](Float opacity) {
-    return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
-  });
+  return nearest_hit(scene, ray, rays, [&](Float opacity) { return detail::sample_passage(opacity, stream); });
 }
 
 /// Share of light that arrives along a ray: the product of 1 - opacity over the surfaces on its way; 0 if one of them
@@ -108,8 +122,7 @@ Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::op
                            std::uint64_t& rays) {
   if (scene.has_masks()) [[unlikely]]
     return detail::shadow_transmittance_with_masks(scene, ray, end, rays);
-  ++rays;
-  return scene.occluded(ray) ? Float(0) : Float(1);
+  return detail::is_unoccluded(scene, ray, rays) ? Float(1) : Float(0);
 }
 
 /// As shadow_transmittance, times the transmittance of the media on the way, of each colour channel.
@@ -152,9 +165,7 @@ template <class SceneType, class Stream>
     }
     if (!hit) return {};
     const Float opacity = scene.opacity(*hit, point);
-    const bool passes =
-        opacity < 1 && (opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0);
-    if (!passes || is_black(beta)) return {{}, hit};
+    if (opacity == 1 || !detail::sample_passage(opacity, stream) || is_black(beta)) return {{}, hit};
     media = media.beyond(scene.surface(*hit).interior.get(), ray.d.dot(point.ng) < 0);
     ray = continue_past(ray, *hit, point);
     from = point.p;

@@ -29,6 +29,9 @@ TEST(Hyperexponential, ZeroRatesAndWeights) {
   EXPECT_EQ(flight.sample(0.75f), mc::infinity<float>);
   EXPECT_EQ(flight.sample(mc::one_minus_epsilon<float>), mc::infinity<float>);
   EXPECT_EQ(flight.sample(0), 0);
+  // The last rate with a weight takes what rounding leaves of u, and not one without weight.
+  const Hyperexponential<float, 4> thirds({1, 1, 1, 0}, {1, 1, 1, 1e9f});
+  EXPECT_GT(thirds.sample(mc::one_minus_epsilon<float>), 10);
 }
 
 TEST(Hyperexponential, RefusesNonsense) {

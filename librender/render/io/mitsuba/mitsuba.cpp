@@ -77,9 +77,9 @@ class Reader {
     for (const auto& [shape, medium] : exteriors_)
       if (!interiors_.contains(medium) && !(own && own->element == medium))
         shape->fail(
-            fmt::format("its exterior is the medium of line {}, which is neither the sensor's nor inside a shape; "
-                        "add it to the sensor by a <ref>, or remove it",
-                        medium->line));
+            fmt::format("its exterior is the medium of {}, which is neither the sensor's nor inside a shape; add it "
+                        "to the sensor by a <ref>, or remove it",
+                        medium->where()));
   }
 
   // A boundary without BSDF is invisible in Mitsuba 0.6 and lajolla.

@@ -70,8 +70,7 @@ std::vector<Kind> all_plugins() {
       {"shape", "the geometry", texts(shape_plugins())},
       {"medium",
        "inside a shape: its interior, or named exterior what is around it; inside a sensor: what is around the camera. "
-       "If "
-       "one shape lies in another, both name the medium between them",
+       "If one shape lies in another, both name the medium between them",
        texts(medium_plugins())},
       {"phase", "inside a medium", texts(phase_plugins())},
       {"emitter in a shape", "the light of its surface", texts(surface_emitter_plugins())},
