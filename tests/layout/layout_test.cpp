@@ -203,6 +203,7 @@ TEST(Layout, ReadmeLinksExist) {
                                  "examples/plugin-rust/README.md",
                                  "examples/program-python/README.md",
                                  "examples/batch-job/README.md",
+                                 "tests/references/README.md",
                                  "tests/refs/README.md",
                                  "tools/input/README.md",
                                  "tools/plugin/README.md",

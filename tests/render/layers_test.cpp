@@ -13,8 +13,9 @@ using namespace render;
 Scene ball_before_plate(const Bsdf& of_ball) {
   SceneBuilder builder;
   const BsdfId ball = builder.add(of_ball);
-  const BsdfId squares =
-      builder.add(TexturedLambert(Checkerboard(Spectrum(1, 0, 0), Spectrum(0, Float(0.5), 0), UvMap({4, 4}, {0, 0}))));
+  const BsdfId squares = builder.add(TexturedBsdf(
+      Lambert(),
+      {.diffuse_reflectance = Checkerboard(Spectrum(1, 0, 0), Spectrum(0, Float(0.5), 0), UvMap({4, 4}, {0, 0}))}));
   builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 6}) * Transform::scale({3, 3, 1})), {squares});
   builder.add(Sphere(Vec3d(0, 0, 3), 1), {ball});
   LensOptions lens;

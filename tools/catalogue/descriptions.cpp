@@ -68,7 +68,7 @@ constexpr auto descriptions = std::to_array<Description>({
     {"TableDistTree", "Piecewise constant density on the boxes of a kd-tree"},
     {"AliasTable", "Outcomes in proportion to their weights, in constant time"},
     {"Lambert", "BSDF of a matte surface: the same radiance in all directions"},
-    {"TexturedLambert", "BSDF of a matte surface with the colour of a picture"},
+    {"TexturedBsdf", "BSDF with colours or roughness from a picture"},
     {"FuzzyMetal", "BSDF of a mirror, or of a metal whose reflections are blurred by a ball of radius fuzz"},
     {"Dielectric", "BSDF of smooth glass: reflection and refraction by the Fresnel equations"},
     {"RoughPlastic", "BSDF of a diffuse base under a rough coating"},

@@ -85,6 +85,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"hard-shadows", "Room lit by two point lights and the sun", ours},
     {"coloured-shadows", "Red, green and blue spot lights on a white stage with a glass ball", ours},
     {"fog", "Spot lights in fog, a cloud, green smoke and a stone", ours},
+    {"worn", "Paint, glass and gold that are rough in places", ours},
     {"fast-lens", "Room through a lens of f/1.4", ours},
     {"ambient-occlusion", "Room with ambient occlusion", ours},
     {"one-bounce", "Room under a sky, one bounce, filmic tone curve", ours, "one-bounce", "", "", 1, 0,

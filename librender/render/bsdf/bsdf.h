@@ -1,5 +1,5 @@
 #pragma once
-/// The closed sets of BSDFs and of textured BSDFs.
+/// The closed set of BSDFs.
 
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/fuzzy_metal.h>
@@ -10,8 +10,6 @@
 #include <render/bsdf/rough_plastic.h>
 #include <render/bsdf/smooth_conductor.h>
 #include <render/bsdf/smooth_plastic.h>
-#include <render/bsdf/textured_lambert.h>
-#include <render/bsdf/textured_plastic.h>
 #include <render/bsdf/thin_dielectric.h>
 #include <render/core/dispatch.h>
 
@@ -42,26 +40,6 @@ struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<Layered
   }
   Lobes lobes() const {
     return dispatch(*this, [](const auto& b) { return b.lobes(); });
-  }
-};
-
-/// A BSDF that varies over a surface. Each alternative models:
-///   at(uv)       : the BSDF at the texture coordinates uv.
-///   untextured() : a BSDF of the same kind, for properties that do not depend on textures.
-struct TexturedBsdf
-    : std::variant<TexturedLambert, TexturedPlastic<RoughPlastic<LayeredBase>>,
-                   TexturedPlastic<RoughPlastic<LajollaBase>>, TexturedPlastic<SmoothPlastic<LayeredBase>>,
-                   TexturedPlastic<SmoothPlastic<LajollaBase>>,
-                   TexturedPlastic<RoughPlastic<LayeredBase, BeckmannFacets>>> {
-  using variant::variant;
-
-  /// BSDF at the texture coordinates uv.
-  Bsdf at(const Vec2d& uv) const {
-    return dispatch(*this, [&](const auto& t) { return Bsdf(t.at(uv)); });
-  }
-  /// A BSDF of the same kind.
-  Bsdf untextured() const {
-    return dispatch(*this, [](const auto& t) { return Bsdf(t.untextured()); });
   }
 };
 

@@ -35,6 +35,8 @@ class Lambert {
   Lobes lobes() const { return Lobes::diffuse(); }
   /// Albedo of each channel.
   const Spectrum& albedo() const { return albedo_; }
+  /// Replaces the albedo. The caller ensures that it lies in [0, 1].
+  void set_diffuse_reflectance(const Spectrum& albedo) { albedo_ = albedo; }
 
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;

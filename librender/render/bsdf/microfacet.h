@@ -9,10 +9,13 @@
 
 namespace render {
 
+/// Smallest supported roughness of facets.
+inline constexpr Float least_alpha = Float(1e-4);
+
 /// Returns the roughness `alpha` if it is in the supported range.
 ///   throws : Error unless alpha lies in [1e-4, 1].
 inline Float checked_alpha(Float alpha) {
-  mc::require(alpha >= Float(1e-4) && alpha <= 1, "facets: alpha {} must lie in [0.0001, 1]", alpha);
+  mc::require(alpha >= least_alpha && alpha <= 1, "facets: alpha {} must lie in [0.0001, 1]", alpha);
   return alpha;
 }
 

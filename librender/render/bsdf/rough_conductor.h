@@ -78,6 +78,10 @@ template <class Facets> class RoughConductor {
     return (reflectance_ * fresnel_conductor(std::min(std::abs(wo.z()), Float(1)), eta_, k_)).maxCoeff();
   }
   Lobes lobes() const { return Lobes::glossy(facets_.alpha()); }
+  /// Replaces the colour. The caller ensures that it lies in [0, 1].
+  void set_specular_reflectance(const Spectrum& color) { reflectance_ = color; }
+  /// Replaces the roughness.
+  void set_alpha(Float alpha) { facets_ = Facets(alpha); }
 
  private:
   Spectrum value(const Reflection& r) const {

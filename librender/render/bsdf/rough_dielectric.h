@@ -60,6 +60,12 @@ template <class Facets = TrowbridgeReitzFacets> class RoughDielectric {
   Float eta(const Vec3& wo, const Vec3& wi) const { return transmitted_eta(wo, wi, eta_); }
   Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
   Lobes lobes() const { return {.roughness = facets_.alpha(), .transmits = true}; }
+  /// Replaces the colour of reflected light. The caller ensures that it lies in [0, 1].
+  void set_specular_reflectance(const Spectrum& color) { reflectance_ = color; }
+  /// Replaces the colour of refracted light. The caller ensures that it lies in [0, 1].
+  void set_specular_transmittance(const Spectrum& color) { transmittance_ = color; }
+  /// Replaces the roughness.
+  void set_alpha(Float alpha) { facets_ = Facets(alpha); }
 
  private:
   // Frame in which wo is above the surface, with the index on the far side over the index on the side of wo.

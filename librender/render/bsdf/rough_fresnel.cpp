@@ -35,24 +35,53 @@ RoughFresnel::Albedos integrate(Float cosine, Float eta, std::monostate) {
 
 } // namespace
 
-RoughFresnel::RoughFresnel(Float eta, const CoatFacets& facets)
+RoughFresnel::RoughFresnel(Float eta)
     : critical_(eta < 1 ? std::min(std::sqrt((1 - eta) * (1 + eta)), Float(0.999)) : Float(0)),
-      cells_below_(critical_ > 0 ? below : 0) {
-  std::vector<Node> nodes;
+      cells_below_(critical_ > 0 ? below : 0) {}
+
+RoughFresnel::RoughFresnel(Float eta, const CoatFacets& facets) : RoughFresnel(eta) {
+  tables_ = std::make_shared<const std::vector<Table>>(1, table_of(eta, facets));
+  first_ = tables_->data();
+  mean_transmitted_ = first_->mean_transmitted;
+}
+
+RoughFresnel RoughFresnel::of_all_roughnesses(Float eta, const std::function<CoatFacets(Float)>& facets_of) {
+  RoughFresnel coat(eta);
+  std::vector<Table> tables;
+  for (int i = 0; i <= roughnesses; ++i) tables.push_back(coat.table_of(eta, facets_of(alpha_of_table(i))));
+  coat.tables_ = std::make_shared<const std::vector<Table>>(std::move(tables));
+  coat.set_alpha(1);
+  return coat;
+}
+
+// Tables are dense where the roughness is small.
+Float RoughFresnel::alpha_of_table(int i) { return std::max(std::pow(Float(i) / roughnesses, Float(3)), least_alpha); }
+
+void RoughFresnel::set_alpha(Float alpha) {
+  if (tables_->size() == 1) return;
+  const int i = std::min(static_cast<int>(std::cbrt(alpha) * roughnesses), roughnesses - 1);
+  const Float a = alpha_of_table(i), b = alpha_of_table(i + 1);
+  first_ = tables_->data() + i;
+  weight_ = std::clamp((alpha - a) / (b - a), Float(0), Float(1));
+  mean_transmitted_ = first_->mean_transmitted + weight_ * (first_[1].mean_transmitted - first_->mean_transmitted);
+}
+
+RoughFresnel::Table RoughFresnel::table_of(Float eta, const CoatFacets& facets) const {
+  Table table;
   const auto add = [&](Float cosine) {
-    const auto [reflected, transmitted] = std::visit([&](const auto& f) { return integrate(cosine, eta, f); }, facets);
-    nodes.push_back({cosine, reflected, transmitted});
+    table.nodes.push_back({std::visit([&](const auto& f) { return integrate(cosine, eta, f); }, facets), cosine});
   };
   for (std::size_t i = 0; i < cells_below_; ++i)
     add(critical_ * (1 - mc::sqr(mc::sqr(Float(below - i) / Float(below)))));
   for (std::size_t i = 0; i <= above; ++i) add(critical_ + (1 - critical_) * mc::sqr(Float(i) / Float(above)));
   double mean = 0;
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double a = nodes[i].cosine, b = nodes[i + 1].cosine;
-    mean += (b - a) / 3 * (double(nodes[i].transmitted) * (2 * a + b) + double(nodes[i + 1].transmitted) * (a + 2 * b));
+  for (std::size_t i = 0; i + 1 < table.nodes.size(); ++i) {
+    const Node &low = table.nodes[i], &high = table.nodes[i + 1];
+    const double a = low.cosine, b = high.cosine;
+    mean += (b - a) / 3 * (double(low.transmitted) * (2 * a + b) + double(high.transmitted) * (a + 2 * b));
   }
-  mean_transmitted_ = Float(mean);
-  nodes_ = std::make_shared<const std::vector<Node>>(std::move(nodes));
+  table.mean_transmitted = Float(mean);
+  return table;
 }
 
 } // namespace render

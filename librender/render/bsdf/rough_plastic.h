@@ -32,11 +32,18 @@ class LayeredBase {
   /// A base under a coat of the relative index eta.
   ///   facets : facets of the coat; none: smooth.
   LayeredBase(Float eta, const CoatFacets& facets, InternalReflections internal = InternalReflections::linear)
-      : coat_(eta, facets) {
-    const Float mean = coat_.mean_transmitted();
-    if (!(mean > 0)) return;
-    scale_ = std::numbers::inv_pi_v<Float> / mean;
-    if (internal == InternalReflections::nonlinear) internal_ = std::max(1 - mean / (eta * eta), Float(0));
+      : coat_(eta, facets), nonlinear_(internal == InternalReflections::nonlinear) {
+    set_coat(eta);
+  }
+
+  /// Computes tables of the coat for all roughnesses; facets_of maps a roughness to facets.
+  template <class F> void prepare_alpha(Float eta, const F& facets_of) {
+    coat_ = RoughFresnel::of_all_roughnesses(eta, facets_of);
+  }
+  /// Replaces the roughness of the coat, after prepare_alpha().
+  void set_alpha(Float eta, Float alpha) {
+    coat_.set_alpha(alpha);
+    set_coat(eta);
   }
 
   /// Colour of the base of the given albedo, seen through the coat.
@@ -50,7 +57,16 @@ class LayeredBase {
   RoughFresnel::Albedos directional_albedo(const Vec3& wo) const { return coat_.eval(std::min(wo.z(), Float(1))); }
 
  private:
+  // The factors that depend on the mean transmittance of the coat.
+  void set_coat(Float eta) {
+    const Float mean = coat_.mean_transmitted();
+    if (!(mean > 0)) return;
+    scale_ = std::numbers::inv_pi_v<Float> / mean;
+    if (nonlinear_) internal_ = std::max(1 - mean / (eta * eta), Float(0));
+  }
+
   RoughFresnel coat_;
+  bool nonlinear_;
   Float scale_ = 0, internal_ = 0; ///< F for nonlinear reflections, else 0
 };
 
@@ -90,6 +106,17 @@ template <class Base> class CoatedDiffuse {
     const auto [reflected, transmitted] = base_.directional_albedo({wo.x(), wo.y(), std::abs(wo.z())});
     return (specular_ * reflected + diffuse_ * transmitted).maxCoeff();
   }
+  /// Replaces the albedo of the base. The caller ensures that it lies in [0, 1].
+  void set_diffuse_reflectance(const Spectrum& albedo) {
+    albedo_ = albedo;
+    diffuse_ = base_.color(albedo);
+    diffuse_y_ = luminance(diffuse_);
+  }
+  /// Replaces the colour of the coat. The caller ensures that it lies in [0, 1].
+  void set_specular_reflectance(const Spectrum& color) {
+    specular_ = color;
+    specular_y_ = luminance(color);
+  }
 
  protected:
   /// 1 / pi.
@@ -99,19 +126,19 @@ template <class Base> class CoatedDiffuse {
   CoatedDiffuse(const std::string& name, Float eta, const CoatFacets& facets, const Spectrum& diffuse,
                 const Spectrum& specular, InternalReflections internal)
       : eta_(checked_ior(name, eta)), base_(eta, facets, internal) {
-    set_colors(checked_reflectance(name + ": diffuseReflectance", diffuse),
-               checked_reflectance(name + ": specularReflectance", specular));
+    set_diffuse_reflectance(checked_reflectance(name + ": diffuseReflectance", diffuse));
+    set_specular_reflectance(checked_reflectance(name + ": specularReflectance", specular));
   }
 
-  /// Replaces the albedo of the base and the colour of the coat, where they are given.
-  void set_colors(const std::optional<Spectrum>& diffuse, const std::optional<Spectrum>& specular) {
-    if (diffuse) {
-      diffuse_ = base_.color(*diffuse);
-      diffuse_y_ = luminance(diffuse_);
-    }
-    if (specular) {
-      specular_ = *specular;
-      specular_y_ = luminance(specular_);
+  /// Computes what the base needs for set_alpha_of_base(); facets_of maps a roughness to facets.
+  template <class F> void prepare_base(const F& facets_of) {
+    if constexpr (requires { base_.prepare_alpha(eta_, facets_of); }) base_.prepare_alpha(eta_, facets_of);
+  }
+  /// Replaces the roughness of the coat over the base.
+  void set_alpha_of_base(Float alpha) {
+    if constexpr (requires { base_.set_alpha(eta_, alpha); }) {
+      base_.set_alpha(eta_, alpha);
+      set_diffuse_reflectance(albedo_);
     }
   }
   /// Probability of sampling the coat: its share of the reflected light.
@@ -128,7 +155,7 @@ template <class Base> class CoatedDiffuse {
  private:
   Float eta_;
   Base base_;
-  Spectrum diffuse_, specular_;
+  Spectrum albedo_, diffuse_, specular_; ///< `diffuse_` is the colour of the base for `albedo_`
   Float diffuse_y_ = 0, specular_y_ = 0;
 };
 
@@ -176,13 +203,16 @@ class RoughPlastic : public CoatedDiffuse<Base> {
     const Float share = specular_probability(r->wo);
     return share * facets_.visible_normals(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
-  /// The same paint with other colours, where they are given. The caller ensures that they lie in [0, 1].
-  RoughPlastic with_colors(const std::optional<Spectrum>& diffuse, const std::optional<Spectrum>& specular) const {
-    RoughPlastic paint = *this;
-    paint.set_colors(diffuse, specular);
-    return paint;
-  }
   Lobes lobes() const { return Lobes::glossy(1); }
+  /// Computes the tables that set_alpha() interpolates.
+  void prepare_alpha() {
+    this->prepare_base([](Float alpha) { return CoatFacets(Facets(alpha)); });
+  }
+  /// Replaces the roughness, after prepare_alpha().
+  void set_alpha(Float alpha) {
+    facets_ = Facets(alpha);
+    this->set_alpha_of_base(alpha);
+  }
 
  private:
   using CoatedDiffuse<Base>::inv_pi, CoatedDiffuse<Base>::specular_probability;

@@ -26,6 +26,8 @@ class SmoothConductor {
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const { return reflected(wo).maxCoeff(); }
   Lobes lobes() const { return Lobes::specular(); }
+  /// Replaces the colour of reflected light. The caller ensures that it lies in [0, 1].
+  void set_specular_reflectance(const Spectrum& color) { reflectance_ = color; }
 
  private:
   Spectrum reflected(const Vec3& wo) const {

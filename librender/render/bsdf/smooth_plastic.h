@@ -40,12 +40,6 @@ template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<B
     const auto r = reflection(wo, wi);
     return r ? mc::Bernoulli<Float>(specular_probability(r->wo)).pmf(0) * r->wi.z() * inv_pi : Float(0);
   }
-  /// The same paint with other colours, where they are given. The caller ensures that they lie in [0, 1].
-  SmoothPlastic with_colors(const std::optional<Spectrum>& diffuse, const std::optional<Spectrum>& specular) const {
-    SmoothPlastic paint = *this;
-    paint.set_colors(diffuse, specular);
-    return paint;
-  }
   Lobes lobes() const { return {.roughness = 1, .has_delta = true}; }
 
  private:

@@ -34,6 +34,10 @@ class ThinDielectric {
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
   Lobes lobes() const { return Lobes::specular(); }
+  /// Replaces the colour of reflected light. The caller ensures that it lies in [0, 1].
+  void set_specular_reflectance(const Spectrum& color) { reflectance_ = color; }
+  /// Replaces the colour of transmitted light. The caller ensures that it lies in [0, 1].
+  void set_specular_transmittance(const Spectrum& color) { transmittance_ = color; }
 
  private:
   Float eta_;

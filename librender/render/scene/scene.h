@@ -2,7 +2,7 @@
 /// Scenes, as renderers use them.
 
 #include <render/accel/bvh.h>
-#include <render/bsdf/bsdf.h>
+#include <render/bsdf/textured_bsdf.h>
 #include <render/camera/thin_lens.h>
 #include <render/film/filter.h>
 #include <render/light/light_sampler.h>

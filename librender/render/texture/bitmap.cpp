@@ -11,15 +11,18 @@ Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map, Wrap wrap
                        [](const Spectrum& s) { return s.isFinite().all(); });
 }
 
+Float Bitmap::least() const {
+  Float least = mc::infinity<Float>;
+  for (const Spectrum& s : texels_->values) least = std::min(least, s.minCoeff());
+  return least;
+}
+
 void Bitmap::require_reflectance(std::string_view what) const {
-  Float least = mc::infinity<Float>, largest = -least;
-  for (const Spectrum& s : texels_->values) {
-    least = std::min(least, s.minCoeff());
-    largest = std::max(largest, s.maxCoeff());
-  }
+  Float largest = -mc::infinity<Float>;
+  for (const Spectrum& s : texels_->values) largest = std::max(largest, s.maxCoeff());
   texels_->require_all(
       what,
-      fmt::format("must lie in [0, 1]; clip or scale the picture, whose values reach from {} to {}", least, largest),
+      fmt::format("must lie in [0, 1]; clip or scale the picture, whose values reach from {} to {}", least(), largest),
       [](const Spectrum& s) { return (s >= 0).all() && (s <= 1).all(); });
 }
 

@@ -29,6 +29,8 @@ class Bitmap {
 
   /// Colour at uv.
   Spectrum eval(const Vec2d& uv) const;
+  /// Smallest value of any channel.
+  Float least() const;
   /// Throws Error that begins with `what` unless all texels lie in [0, 1].
   void require_reflectance(std::string_view what) const;
 

@@ -17,6 +17,8 @@ class Checkerboard {
     const Vec2d p = map_(uv);
     return (p[0] < 0.5) == (p[1] < 0.5) ? color0_ : color1_;
   }
+  /// Smallest value of any channel.
+  Float least() const { return color0_.min(color1_).minCoeff(); }
   /// Throws Error that begins with `what` unless both colours lie in [0, 1].
   void require_reflectance(std::string_view what) const {
     checked_reflectance(fmt::format("{}: color0", what), color0_);

@@ -47,6 +47,29 @@ TEST(RoughFresnel, AgreesWithRoughDielectric) {
   }
 }
 
+// Between the tables of two roughnesses, against a table of the roughness itself.
+TEST(RoughFresnel, InterpolatesRoughness) {
+  mc::Pcg random(22);
+  for (const double eta : {0.6, 1.01, 1.5, 3.0})
+    for (const bool beckmann : {false, true}) {
+      const auto facets_of = [&](Float alpha) {
+        return beckmann ? CoatFacets(BeckmannFacets(alpha)) : CoatFacets(TrowbridgeReitzFacets(alpha));
+      };
+      RoughFresnel coats = RoughFresnel::of_all_roughnesses(Float(eta), facets_of);
+      for (int k = 0; k < 12; ++k) {
+        const auto alpha = k ? Float(random_log_uniform(random, 1e-4, 1)) : Float(1);
+        const RoughFresnel coat(Float(eta), facets_of(alpha));
+        coats.set_alpha(alpha);
+        EXPECT_NEAR(coats.mean_transmitted(), coat.mean_transmitted(), 0.001) << eta << ", " << alpha;
+        for (double cosine = 0.005; cosine < 1; cosine += 0.005) {
+          const RoughFresnel::Albedos a = coats.eval(Float(cosine)), b = coat.eval(Float(cosine));
+          EXPECT_NEAR(a.transmitted, b.transmitted, 0.022) << eta << ", " << alpha << ", " << cosine;
+          EXPECT_NEAR(a.reflected, b.reflected, 0.022) << eta << ", " << alpha << ", " << cosine;
+        }
+      }
+    }
+}
+
 TEST(RoughFresnel, MeanTransmittanceIsExactForTable) {
   for (const double eta : {0.7, 1.0, 1.5})
     for (const double alpha : {1e-4, 0.1, 1.0}) {

@@ -18,6 +18,10 @@ template <class F> std::string message(F&& f) {
   }
 }
 
+TexturedBsdf textured(const Spectrum& color0, const Spectrum& color1) {
+  return {Lambert(), {.diffuse_reflectance = Checkerboard(color0, color1)}};
+}
+
 TEST(SceneBuilder, AnEmptySceneIsRefusedUnlessItHasABackground) {
   SceneBuilder builder;
   EXPECT_THROW(builder.build(), mc::Error);
@@ -33,7 +37,7 @@ TEST(SceneBuilder, ErrorsNameTheProblem) {
   builder.add(ball, {gray});
   EXPECT_THAT(message([&] { builder.add(ball, {BsdfId(3)}); }), testing::HasSubstr("shape 1 names BSDF 3 of 1"));
   EXPECT_THAT(message([&] { builder.add(flat, {gray, Emission{}}); }), testing::HasSubstr("needs an area > 0"));
-  const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
+  const BsdfId board = builder.add(textured(Spectrum::Zero(), Spectrum::Ones()));
   const Shape untextured = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   EXPECT_THAT(message([&] { builder.add(untextured, {board}); }),
               testing::HasSubstr("shape 1 has no texture coordinates"));
@@ -70,7 +74,7 @@ TEST(SceneBuilder, KeepsSamplingTablesOfLightsAndTargets) {
 TEST(SceneBuilder, ATextureLiesWhereTheCoordinatesSay) {
   SceneBuilder builder;
   const Spectrum dark = Spectrum::Constant(Float(0.25)), light = Spectrum::Constant(Float(0.75));
-  builder.add(TriangleMesh::rectangle({}), {builder.add(TexturedLambert(Checkerboard(dark, light)))});
+  builder.add(TriangleMesh::rectangle({}), {builder.add(textured(dark, light))});
   const Scene scene = builder.build();
   for (const double x : {-0.9, -0.3, 0.2, 0.7})
     for (const double y : {-0.8, -0.1, 0.4, 0.6}) {

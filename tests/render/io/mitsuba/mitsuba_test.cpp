@@ -359,49 +359,45 @@ TEST_F(Mitsuba, ASceneWithoutLightIsBlackNotAnError) {
   for (const auto& p : render::render(scene, options).image.pixels) EXPECT_TRUE((p == 0).all());
 }
 
-// Every 16x16 block agrees within 4 combined standard errors plus 0.5 % of the reference. Renders 64 samples per pixel
-// at the size of the reference. The README of the references states their noise, the mean of (x - truth)^2 / (truth^2 +
-// .01). It is not negligible at 64 samples, above all in dark channels.
-/// An image of a scene by another renderer. The scene is in the gallery, or in a folder as users have it.
+// A picture by another program, as means over 4x4 pixels. Its scene is in the gallery or beside the picture; `noise` is
+// its variance over the square of the radiance + .01, in each of the 16 pixels.
 struct ReferenceImage {
   const char *scene, *file;
-  double noise; ///< Variance relative to the square of the radiance.
+  double noise;
 
-  std::string path() const {
-    const bool is_users = std::string_view(scene).find('/') != std::string_view::npos;
-    return is_users ? support::reference_file(scene) : gallery(scene);
-  }
   friend void PrintTo(const ReferenceImage& image, std::ostream* out) { *out << image.file; }
 };
 struct Reference : testing::TestWithParam<ReferenceImage> {};
 
+// Every block of 16x16 pixels agrees within 4 combined standard errors plus .5 % of the reference.
 TEST_P(Reference, BlocksAgree) {
   const auto [name, file, noise] = GetParam();
-  if (!support::has_reference_file(file)) GTEST_SKIP() << "the reference " << file << " is not here";
-  if (!std::filesystem::exists(GetParam().path())) GTEST_SKIP() << "the scene " << name << " is not here";
-  const render::Image reference = render::read_image(support::reference_file(file));
-  const auto [scene, defaults, origin, warnings, files, surface_names, light_names] =
-      render::read_mitsuba(GetParam().path());
+  const std::string folder = MC_SOURCE_DIR "/tests/references/";
+  const render::Image reference = render::read_image(folder + file);
+  const render::SceneFile read =
+      render::read_mitsuba(std::filesystem::exists(folder + name) ? folder + name : gallery(name));
+  constexpr int side = 4; // of what one pixel of the reference covers
   render::RenderOptions options;
-  options.width = reference.width;
-  options.height = reference.height;
+  options.width = side * reference.width;
+  options.height = side * reference.height;
   options.spp = 64;
-  options.max_depth = defaults.max_depth;
+  options.max_depth = read.defaults.max_depth;
   options.seed = 3;
-  const auto result = render::render(scene, options);
+  const auto result = render::render(read.scene, options);
   ASSERT_EQ(result.invalid, 0u);
   int blocks = 0;
   double worst = 0;
-  for (int y0 = 0; y0 < reference.height; y0 += 16)
-    for (int x0 = 0; x0 < reference.width; x0 += 16)
+  const int size = 4 * side;
+  for (int y0 = 0; y0 < result.image.height; y0 += size)
+    for (int x0 = 0; x0 < result.image.width; x0 += size)
       for (int c = 0; c < 3; ++c, ++blocks) {
         double difference = 0, sum = 0, variance = 0;
-        for (int y = y0; y < std::min(y0 + 16, reference.height); ++y)
-          for (int x = x0; x < std::min(x0 + 16, reference.width); ++x) {
-            difference += double(result.image.at(x, y)[c]) - double(reference.at(x, y)[c]);
-            sum += double(reference.at(x, y)[c]);
-            variance += double(result.image.variance[reference.index(x, y)][c]) +
-                        noise * (mc::sqr(double(reference.at(x, y)[c])) + 0.01);
+        for (int y = y0; y < std::min(y0 + size, result.image.height); ++y)
+          for (int x = x0; x < std::min(x0 + size, result.image.width); ++x) {
+            const auto expected = double(reference.at(x / side, y / side)[c]);
+            difference += double(result.image.at(x, y)[c]) - expected;
+            sum += expected;
+            variance += double(result.image.variance[result.image.index(x, y)][c]) + noise * (mc::sqr(expected) + 0.01);
           }
         const double excess = std::abs(difference) - 0.005 * std::abs(sum);
         if (excess > 0) worst = std::max(worst, excess / std::sqrt(variance));
@@ -411,32 +407,10 @@ TEST_P(Reference, BlocksAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mitsuba, Reference,
-                         testing::Values(ReferenceImage{"cbox.xml", "refs/cbox_lajolla_256.pfm", 4.9e-5},
-                                         ReferenceImage{"scenes/simple_sphere/simple_sphere.xml",
-                                                        "refs/lajolla_simple_sphere_256x192.pfm", 3e-6},
-                                         ReferenceImage{"scenes/pixel_filter_test/pixel_filter_test.xml",
-                                                        "refs/lajolla_pixel_filter_test_256x192.pfm", 1e-4},
-                                         ReferenceImage{"book3-cornell-white.xml", "refs/book3_cornell_300.pfm",
-                                                        3.7e-4},
-                                         ReferenceImage{"smallpt.xml", "refs/smallpt_256x192.pfm", 4.4e-4}));
-
-// Unmodified scenes from the repository of lajolla. Two scenes with reference images are tested above, and cbox is in
-// the gallery.
-TEST(LajollasScenes, LoadUnchanged) {
-  for (const char* name : {"scenes/cbox/cbox.xml", "scenes/veach_mi/mi.xml", "scenes/matpreview/matpreview.xml"}) {
-    if (!support::has_reference_file(name)) GTEST_SKIP() << "the scene " << name << " is not here";
-    const auto file = render::read_mitsuba(support::reference_file(name));
-    render::RenderOptions options;
-    options.width = 24;
-    options.height = 16;
-    options.spp = 8;
-    options.max_depth = file.defaults.max_depth;
-    const auto result = render::render(file.scene, options);
-    EXPECT_EQ(result.invalid, 0u) << name;
-    double sum = 0;
-    for (const auto& p : result.image.pixels) sum += double(p.sum());
-    EXPECT_GT(sum, 0) << name;
-  }
-}
+                         testing::Values(ReferenceImage{"cbox.xml", "cbox.pfm", 4.9e-5},
+                                         ReferenceImage{"two-spheres.xml", "two-spheres.pfm", 3e-6},
+                                         ReferenceImage{"checkered-floor.xml", "checkered-floor.pfm", 1e-4},
+                                         ReferenceImage{"book3-cornell-white.xml", "book3-cornell-white.pfm", 3.7e-4},
+                                         ReferenceImage{"smallpt.xml", "smallpt.pfm", 4.4e-4}));
 
 } // namespace

@@ -169,9 +169,9 @@ TEST_F(PluginsTest, PicturesOfPaintLieInZeroToOne) {
     render::write_image(path("p.pfm"), picture);
     return refusal(std::string(sensor) + "\n" + body);
   };
-  for (const auto& [bsdf, what] : {std::pair(diffuse, "diffuse: reflectance"),
-                                   {paint, "plastic: diffuseReflectance"},
-                                   {lacquer, "plastic: specularReflectance"},
+  for (const auto& [bsdf, what] : {std::pair(diffuse, "diffuse reflectance"),
+                                   {paint, "diffuse reflectance"},
+                                   {lacquer, "specular reflectance"},
                                    {mask, "mask: opacity"}}) {
     const std::string shape = "<shape type=\"cube\">" + bsdf + "</shape>";
     EXPECT_EQ(said(shape, 1), "");
@@ -299,6 +299,33 @@ TEST_F(PluginsTest, AnisotropicFacetsAreRefused) {
     EXPECT_THAT(said(type, "0.2", "0.2", "<float name=\"alpha\" value=\"0.2\"/>"),
                 testing::HasSubstr("give alpha, or alphaU and alphaV, not both"));
   }
+}
+
+// The left half of the rectangle is rougher than the right half.
+TEST_F(PluginsTest, RoughnessMayBeATexture) {
+  const auto at = [&](const std::string& type, const std::string& name, double color, const char* dialect, double x) {
+    const std::string text = fmt::format(
+        R"({}<shape type="rectangle"><bsdf type="{}"><texture type="checkerboard" name="{}"><float name="vscale" value="0"/>
+           <rgb name="color0" value="{}"/><rgb name="color1" value="0.1"/></texture></bsdf></shape>)",
+        sensor, type, name, color);
+    const render::Scene read = render::read_mitsuba(scene(text), render::dialect_from(dialect)).scene;
+    const render::Ray ray{render::Vec3(render::Float(x), 0, 1), render::Vec3(0, 0, -1)};
+    const auto hit = read.intersect(ray);
+    std::optional<render::Bsdf> storage;
+    return read.bsdf(read.surface(*hit), *hit, read.surface_point(ray, *hit), storage);
+  };
+  for (const char* type : {"roughdielectric", "roughconductor"}) {
+    EXPECT_EQ(at(type, "alpha", 0.4, "mitsuba", -0.5).lobes().roughness, render::Float(0.4)) << type;
+    EXPECT_EQ(at(type, "alpha", 0.4, "mitsuba", 0.5).lobes().roughness, render::Float(0.1)) << type;
+  }
+  EXPECT_NEAR(at("dielectric", "roughness", 0.4, "lajolla", -0.5).lobes().roughness, 0.16, 1e-6);
+  EXPECT_NEAR(at("roughdielectric", "roughness", 0.4, "lajolla", 0.5).lobes().roughness, 0.01, 1e-6);
+  const render::Vec3 up = render::Vec3::UnitZ();
+  for (const auto& [name, dialect] : {std::pair("alpha", "mitsuba"), {"roughness", "lajolla"}})
+    EXPECT_LT(10 * at("roughplastic", name, 0.9, dialect, -0.5).pdf(up, up),
+              at("roughplastic", name, 0.9, dialect, 0.5).pdf(up, up));
+  EXPECT_THAT(support::error_of([&] { at("roughplastic", "alpha", 1.5, "mitsuba", 0); }),
+              testing::HasSubstr("<bsdf>: alpha: color0 (1.5, 1.5, 1.5) must lie in [0, 1]"));
 }
 
 TEST_F(PluginsTest, PlasticMayBeNonlinear) {

@@ -16,10 +16,24 @@ Material one_sided(Material material) {
   return material;
 }
 
+// The constant, or a placeholder for a texture.
+Spectrum constant_of(const Reflectance& r) {
+  const auto* color = std::get_if<Spectrum>(&r);
+  return color ? *color : Spectrum(Spectrum::Constant(Float(0.5)));
+}
+std::optional<Texture> texture_of(const Reflectance& r) {
+  if (const auto* texture = std::get_if<Texture>(&r)) return *texture;
+  return {};
+}
+
+// The BSDF, with those of its parameters that are textures.
+Material textured(Bsdf bsdf, BsdfTextures textures) {
+  if (textures.empty()) return Material(std::move(bsdf));
+  return TexturedBsdf(std::move(bsdf), std::move(textures));
+}
+
 Material make_diffuse(const Reflectance& reflectance) {
-  const auto* texture = std::get_if<Texture>(&reflectance);
-  return one_sided(texture ? Material(TexturedBsdf(TexturedLambert(*texture)))
-                           : Material(Bsdf(Lambert(std::get<Spectrum>(reflectance)))));
+  return one_sided(textured(Lambert(constant_of(reflectance)), {.diffuse_reflectance = texture_of(reflectance)}));
 }
 
 /// Optical constants of a conductor, as the scene gives them.
@@ -28,29 +42,32 @@ struct ConductorSettings {
   std::optional<Spectrum> eta, k;
 };
 
-// Optical constants over the index of the outside. Nothing for the material none, a perfect mirror.
-std::optional<OpticalConstants> constants_of(const ConductorSettings& given, double outside) {
+// Optical constants over the index of the outside. Those of the material none, eta = 0, reflect all at every angle.
+OpticalConstants constants_of(const ConductorSettings& given, double outside) {
   const auto& [material, eta, k] = given;
   mc::require(outside > 0, "index of refraction {} must be > 0", outside);
   mc::require(eta.has_value() == k.has_value(), "eta and k belong together; give both, or a material");
   mc::require(!eta || !material, "material and eta contradict each other; give the material, or eta and k");
-  if (material == "none") return {};
+  if (material == "none") return {Spectrum::Zero(), Spectrum::Ones()};
   const OpticalConstants c = eta ? OpticalConstants{*eta, *k} : metal_constants(material.value_or("Cu"));
-  return OpticalConstants{c.eta / Float(outside), c.k / Float(outside)};
+  return {c.eta / Float(outside), c.k / Float(outside)};
 }
 
 Material make_conductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
-                        const std::optional<Spectrum>& k, double outside, const Spectrum& reflectance) {
-  const auto constants = constants_of({material, eta, k}, outside);
-  if (!constants) return one_sided(Bsdf(FuzzyMetal(reflectance, 0)));
-  return one_sided(Bsdf(SmoothConductor(constants->eta, constants->k, reflectance)));
+                        const std::optional<Spectrum>& k, double outside, const Reflectance& reflectance) {
+  const OpticalConstants metal = constants_of({material, eta, k}, outside);
+  return one_sided(textured(SmoothConductor(metal.eta, metal.k, constant_of(reflectance)),
+                            {.specular_reflectance = texture_of(reflectance)}));
 }
 
 Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return FuzzyMetal(albedo, Float(fuzz)); }
 
+/// A number or a texture.
+using NumberOrTexture = std::variant<double, Texture>;
+
 /// Root mean square slope of microfacets, and whether the file contains it.
 struct Slope {
-  double alpha;
+  NumberOrTexture alpha;
   bool is_given = false;
 };
 
@@ -63,13 +80,27 @@ Slope isotropic(const Slope& slope, const std::optional<double>& u, const std::o
   return {*u, true};
 }
 
+/// Roughness of facets: a number, or a texture and its smallest value.
+struct Roughness {
+  double alpha; ///< 0: smooth.
+  std::optional<RoughnessTexture> texture = {};
+};
+
+Roughness roughness_of(const NumberOrTexture& alpha, bool is_root) {
+  if (const auto* number = std::get_if<double>(&alpha)) return {*number};
+  const RoughnessTexture texture(std::get<Texture>(alpha), is_root);
+  return {texture.least(), texture};
+}
+
 // The roughness of lajolla is the square root of alpha. Like lajolla, replaces roughness in (0, .01) by .01.
-double alpha_of(const Slope& slope, const std::optional<double>& roughness) {
-  mc::require(!slope.is_given || !roughness, "give alpha or roughness, its square root, not both");
-  if (!roughness) return slope.alpha;
-  mc::require(*roughness >= 0 && *roughness <= 1, "roughness {} must lie in [0, 1]", *roughness);
+Roughness roughness_of(const Slope& slope, const std::optional<NumberOrTexture>& root) {
+  mc::require(!slope.is_given || !root, "give alpha or roughness, its square root, not both");
+  if (!root) return roughness_of(slope.alpha, false);
+  Roughness roughness = roughness_of(*root, true);
+  if (roughness.texture || roughness.alpha == 0) return roughness;
+  mc::require(roughness.alpha >= 0 && roughness.alpha <= 1, "roughness {} must lie in [0, 1]", roughness.alpha);
   constexpr double least = 0.01;
-  return *roughness == 0 ? 0 : mc::sqr(std::max(*roughness, least));
+  return {mc::sqr(std::max(roughness.alpha, least))};
 }
 
 Float relative_index(double inside, double outside) {
@@ -77,77 +108,69 @@ Float relative_index(double inside, double outside) {
   return Float(inside / outside);
 }
 
-// Constant part of a reflectance: a placeholder if it is a texture.
-Spectrum constant_of(const Reflectance& r) {
-  const auto* color = std::get_if<Spectrum>(&r);
-  return color ? *color : Spectrum(Spectrum::Constant(Float(0.5)));
-}
-std::optional<Texture> texture_of(const Reflectance& r) {
-  if (const auto* texture = std::get_if<Texture>(&r)) return *texture;
-  return {};
-}
-
-template <class Paint> Material painted(Paint paint, const Reflectance& diffuse, const Reflectance& specular) {
-  std::optional<Texture> base = texture_of(diffuse), coat = texture_of(specular);
-  if (!base && !coat) return one_sided(Bsdf(std::move(paint)));
-  return one_sided(TexturedBsdf(TexturedPlastic<Paint>(std::move(paint), std::move(base), std::move(coat))));
-}
-
 // Distributions of facets, in the order of their names in distribution().
 enum class FacetShape { beckmann, ggx, phong };
 
 template <class Base>
-Material plastic_over(Float eta, double alpha, FacetShape facets, const Reflectance& diffuse,
-                      const Reflectance& specular, InternalReflections internal) {
-  const Spectrum base = constant_of(diffuse), coat = constant_of(specular);
-  if (alpha == 0) return painted(SmoothPlastic<Base>(eta, base, coat, internal), diffuse, specular);
+Bsdf plastic_over(Float eta, Float alpha, FacetShape facets, const Spectrum& diffuse, const Spectrum& specular,
+                  InternalReflections internal) {
+  if (alpha == 0) return SmoothPlastic<Base>(eta, diffuse, specular, internal);
   if constexpr (std::is_same_v<Base, LayeredBase>)
     if (facets == FacetShape::beckmann)
-      return painted(RoughPlastic<Base, BeckmannFacets>(eta, Float(alpha), base, coat, internal), diffuse, specular);
-  return painted(RoughPlastic<Base>(eta, Float(alpha), base, coat, internal), diffuse, specular);
+      return RoughPlastic<Base, BeckmannFacets>(eta, alpha, diffuse, specular, internal);
+  return RoughPlastic<Base>(eta, alpha, diffuse, specular, internal);
 }
 
-Material make_roughplastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                           const std::optional<FacetShape>& given_facets, const Reflectance& diffuse,
-                           const Reflectance& specular, bool nonlinear, std::size_t base) {
+Material make_roughplastic(double inside, double outside, const Slope& slope,
+                           const std::optional<NumberOrTexture>& root, const std::optional<FacetShape>& given_facets,
+                           const Reflectance& diffuse, const Reflectance& specular, bool nonlinear, std::size_t base) {
   const FacetShape facets = given_facets.value_or(base == 1 ? FacetShape::ggx : FacetShape::beckmann);
   const Float eta = relative_index(inside, outside);
-  const double alpha = alpha_of(slope, roughness);
+  const Roughness roughness = roughness_of(slope, root);
   mc::require(!nonlinear || base != 1, "nonlinear needs the base layered; that of lajolla ignores the coat");
   mc::require(facets == FacetShape::ggx || base != 1, "beckmann needs the base layered; the facets of lajolla are ggx");
   const auto internal = nonlinear ? InternalReflections::nonlinear : InternalReflections::linear;
-  return base == 1 ? plastic_over<LajollaBase>(eta, alpha, facets, diffuse, specular, internal)
-                   : plastic_over<LayeredBase>(eta, alpha, facets, diffuse, specular, internal);
+  const auto make = base == 1 ? plastic_over<LajollaBase> : plastic_over<LayeredBase>;
+  return one_sided(
+      textured(make(eta, Float(roughness.alpha), facets, constant_of(diffuse), constant_of(specular), internal),
+               {.diffuse_reflectance = texture_of(diffuse),
+                .specular_reflectance = texture_of(specular),
+                .alpha = roughness.texture}));
 }
 
-Material make_plastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
+Material make_plastic(double inside, double outside, const Slope& slope, const std::optional<NumberOrTexture>& root,
                       const Reflectance& diffuse, const Reflectance& specular, bool nonlinear, std::size_t base) {
-  return make_roughplastic(inside, outside, slope, roughness, FacetShape::ggx, diffuse, specular, nonlinear, base);
+  return make_roughplastic(inside, outside, slope, root, FacetShape::ggx, diffuse, specular, nonlinear, base);
 }
 
-Bsdf glass(Float eta, double alpha, FacetShape facets, const Spectrum& reflectance, const Spectrum& transmittance) {
+Bsdf glass(Float eta, Float alpha, FacetShape facets, const Spectrum& reflectance, const Spectrum& transmittance) {
   if (alpha == 0) return Dielectric(eta, reflectance, transmittance);
-  if (facets == FacetShape::beckmann)
-    return RoughDielectric<BeckmannFacets>(eta, Float(alpha), reflectance, transmittance);
-  return RoughDielectric<>(eta, Float(alpha), reflectance, transmittance);
+  if (facets == FacetShape::beckmann) return RoughDielectric<BeckmannFacets>(eta, alpha, reflectance, transmittance);
+  return RoughDielectric<>(eta, alpha, reflectance, transmittance);
 }
 
-Bsdf make_dielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                     const Spectrum& reflectance, const Spectrum& transmittance) {
-  return glass(relative_index(inside, outside), alpha_of(slope, roughness), FacetShape::ggx, reflectance,
-               transmittance);
+Material make_roughdielectric(double inside, double outside, const Slope& slope,
+                              const std::optional<NumberOrTexture>& root, const std::optional<double>& alpha_u,
+                              const std::optional<double>& alpha_v, const std::optional<FacetShape>& facets,
+                              const Reflectance& reflectance, const Reflectance& transmittance) {
+  const Roughness roughness = roughness_of(isotropic(slope, alpha_u, alpha_v), root);
+  return textured(glass(relative_index(inside, outside), Float(roughness.alpha), facets.value_or(FacetShape::beckmann),
+                        constant_of(reflectance), constant_of(transmittance)),
+                  {.specular_reflectance = texture_of(reflectance),
+                   .specular_transmittance = texture_of(transmittance),
+                   .alpha = roughness.texture});
 }
 
-Bsdf make_roughdielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
-                          const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
-                          const std::optional<FacetShape>& facets, const Spectrum& reflectance,
-                          const Spectrum& transmittance) {
-  return glass(relative_index(inside, outside), alpha_of(isotropic(slope, alpha_u, alpha_v), roughness),
-               facets.value_or(FacetShape::beckmann), reflectance, transmittance);
+Material make_dielectric(double inside, double outside, const Slope& slope, const std::optional<NumberOrTexture>& root,
+                         const Reflectance& reflectance, const Reflectance& transmittance) {
+  return make_roughdielectric(inside, outside, slope, root, {}, {}, FacetShape::ggx, reflectance, transmittance);
 }
 
-Bsdf make_thindielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
-  return ThinDielectric(relative_index(inside, outside), reflectance, transmittance);
+Material make_thindielectric(double inside, double outside, const Reflectance& reflectance,
+                             const Reflectance& transmittance) {
+  return textured(
+      ThinDielectric(relative_index(inside, outside), constant_of(reflectance), constant_of(transmittance)),
+      {.specular_reflectance = texture_of(reflectance), .specular_transmittance = texture_of(transmittance)});
 }
 
 Material make_twosided(Material inner) {
@@ -158,18 +181,21 @@ Material make_twosided(Material inner) {
 Material make_roughconductor(const std::optional<std::string>& material, const std::optional<Spectrum>& eta,
                              const std::optional<Spectrum>& k, double outside, const Slope& slope,
                              const std::optional<double>& alpha_u, const std::optional<double>& alpha_v,
-                             const std::optional<FacetShape>& given_facets, const Spectrum& reflectance) {
-  // F is 1 at every angle for eta = 0.
-  const OpticalConstants metal =
-      constants_of({material, eta, k}, outside).value_or(OpticalConstants{Spectrum::Zero(), Spectrum::Ones()});
-  const auto alpha = Float(isotropic(slope, alpha_u, alpha_v).alpha);
-  const FacetShape facets = given_facets.value_or(FacetShape::beckmann);
-  if (alpha == 0) return one_sided(Bsdf(SmoothConductor(metal.eta, metal.k, reflectance)));
-  if (facets == FacetShape::beckmann)
-    return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, BeckmannFacets(alpha), reflectance)));
-  if (facets == FacetShape::phong)
-    return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, BlinnPhongFacets(alpha), reflectance)));
-  return one_sided(Bsdf(RoughConductor(metal.eta, metal.k, TrowbridgeReitzFacets(alpha), reflectance)));
+                             const std::optional<FacetShape>& given_facets, const Reflectance& reflectance) {
+  const OpticalConstants metal = constants_of({material, eta, k}, outside);
+  const Roughness roughness = roughness_of(isotropic(slope, alpha_u, alpha_v), {});
+  const auto alpha = Float(roughness.alpha);
+  const Spectrum color = constant_of(reflectance);
+  const auto make = [&]() -> Bsdf {
+    if (alpha == 0) return SmoothConductor(metal.eta, metal.k, color);
+    switch (given_facets.value_or(FacetShape::beckmann)) {
+    case FacetShape::ggx: return RoughConductor(metal.eta, metal.k, TrowbridgeReitzFacets(alpha), color);
+    case FacetShape::phong: return RoughConductor(metal.eta, metal.k, BlinnPhongFacets(alpha), color);
+    case FacetShape::beckmann: break;
+    }
+    return RoughConductor(metal.eta, metal.k, BeckmannFacets(alpha), color);
+  };
+  return one_sided(textured(make(), {.specular_reflectance = texture_of(reflectance), .alpha = roughness.texture}));
 }
 
 Material make_mask(const Reflectance& opacity, Material inner) {
@@ -192,15 +218,21 @@ Parameter<Material> inner_bsdf(std::string meaning) {
           {}};
 }
 
-Slope given_slope(const XmlElement& e, Context&) { return {number_of(e), true}; }
+NumberOrTexture number_or_texture_of(const XmlElement& e, Context& context) {
+  if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
+  return number_of(e);
+}
+
+Declaration number_or_texture(const std::string& name, const std::string& meaning) {
+  return {name, "number or texture", "", {"float", "integer", "texture", "ref"}, meaning};
+}
 
 Parameter<Slope> slope() {
-  return {{"alpha",
-           "number",
-           "",
-           {"float", "integer"},
-           "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]"},
-          given_slope,
+  return {number_or_texture("alpha", "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]; "
+                                     "of a texture the channels' mean, at least 0.0001"),
+          [](const XmlElement& e, Context& context) {
+            return Slope{number_or_texture_of(e, context), true};
+          },
           {},
           {}};
 }
@@ -208,15 +240,16 @@ Parameter<Slope> alpha() { return slope().with_default({0.1}, "0.1").with_lajoll
 /// Slope parameter of smooth materials. The smooth materials of lajolla are its rough ones with another default;
 /// `rough` is the rough plugin of Mitsuba.
 Parameter<Slope> alpha_of_smooth(const std::string& rough) {
-  return slope().with_default({0}, "0").lajolla_only(rough);
+  return slope().with_default({0.0}, "0").lajolla_only(rough);
 }
 Parameter<std::optional<double>> slope_along(const std::string& name, const std::string& axis) {
   return optional(
       number(name, "", "alpha along " + axis + "; anisotropic facets are not supported, so only equal ones"));
 }
-Parameter<std::optional<double>> roughness() {
-  return optional(number("roughness", "", "the root of alpha, in [0, 1], instead of it"))
-      .lajolla_only("alpha, its square");
+Parameter<std::optional<NumberOrTexture>> roughness() {
+  const Parameter<NumberOrTexture> p{
+      number_or_texture("roughness", "the root of alpha, in [0, 1], instead of it"), number_or_texture_of, {}, {}};
+  return optional(p).lajolla_only("alpha, its square");
 }
 
 std::string metal_of(const XmlElement& e, Context&) {
@@ -318,19 +351,19 @@ const Plugins<Material>& bsdf_plugins() {
                        reflectance_or_texture("reflectance", "what is reflected, in [0, 1]", half)),
       plugin<Material>("conductor", "polished metal, or a perfect mirror", make_conductor, metal(), eta_of_metal(),
                        k_of_metal(), refractive_index("extEta", "outside", 1.000277),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+                       reflectance_or_texture("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
                        make_fuzzymetal,
                        reflectance("albedo", "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
                        number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
       plugin<Material>("dielectric", "smooth glass", make_dielectric, refractive_index("intIOR", "inside", 1.5046),
                        refractive_index("extIOR", "outside", 1.000277), alpha_of_smooth("roughdielectric"), roughness(),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
-                       reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
+                       reflectance_or_texture("specularReflectance", "factor of what is reflected, in [0, 1]", one),
+                       reflectance_or_texture("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
       plugin<Material>("thindielectric", "a pane of glass too thin to displace light", make_thindielectric,
                        refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
-                       reflectance("specularTransmittance", "factor of what passes, in [0, 1]", one)),
+                       reflectance_or_texture("specularReflectance", "factor of what is reflected, in [0, 1]", one),
+                       reflectance_or_texture("specularTransmittance", "factor of what passes, in [0, 1]", one)),
       plugin<Material>("plastic", "polished paint: a smooth clear coat over a diffuse base", make_plastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
                        alpha_of_smooth("roughplastic"), roughness(), color_of_base(), color_of_coat(), nonlinear(),
@@ -343,13 +376,13 @@ const Plugins<Material>& bsdf_plugins() {
                        refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
                        alpha(), roughness(), slope_along("alphaU", "u"), slope_along("alphaV", "v"),
                        distribution({"beckmann", "ggx"}),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
-                       reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
+                       reflectance_or_texture("specularReflectance", "factor of what is reflected, in [0, 1]", one),
+                       reflectance_or_texture("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
       plugin<Material>("roughconductor", "metal with facets, of which Blinn-Phong's have the exponent 2 / alpha^2 - 2",
                        make_roughconductor, metal(), eta_of_metal(), k_of_metal(),
                        refractive_index("extEta", "outside", 1.000277), alpha(), slope_along("alphaU", "u"),
                        slope_along("alphaV", "v"), distribution({"beckmann", "ggx", "phong"}),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+                       reflectance_or_texture("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, on both sides of the surface", make_twosided,
                        inner_bsdf("what covers both sides")),
       plugin<Material>("null", "nothing: the boundary of a medium alone", [] { return Material::invisible(); }),

@@ -1,0 +1,71 @@
+#pragma once
+/// BSDFs with parameters that vary over a surface.
+
+#include <render/bsdf/bsdf.h>
+#include <render/texture/texture.h>
+
+namespace render {
+
+/// Roughness of facets from a texture: the mean of its channels, within the range of checked_alpha().
+///   throws : Error unless the texture lies in [0, 1].
+class RoughnessTexture {
+ public:
+  /// Roughness alpha, or its square root as in lajolla.
+  explicit RoughnessTexture(Texture texture, bool is_root = false) : texture_(std::move(texture)), is_root_(is_root) {
+    texture_.require_reflectance(is_root ? "roughness" : "alpha");
+  }
+  /// Roughness alpha at uv.
+  Float at(const Vec2d& uv) const { return alpha(texture_.eval(uv).mean()); }
+  /// Smallest roughness alpha anywhere.
+  Float least() const { return alpha(texture_.least()); }
+
+ private:
+  Float alpha(Float value) const { return std::clamp(is_root_ ? value * value : value, least_alpha, Float(1)); }
+
+  Texture texture_;
+  bool is_root_;
+};
+
+/// Textures that replace parameters of a BSDF.
+struct BsdfTextures {
+  std::optional<Texture> diffuse_reflectance = {};    ///< Albedo of a diffuse surface or base.
+  std::optional<Texture> specular_reflectance = {};   ///< Colour of what facets or a smooth surface reflect.
+  std::optional<Texture> specular_transmittance = {}; ///< Colour of what they transmit.
+  std::optional<RoughnessTexture> alpha = {};         ///< Roughness of the facets.
+
+  /// Whether there is no texture.
+  bool empty() const { return !diffuse_reflectance && !specular_reflectance && !specular_transmittance && !alpha; }
+};
+
+/// A BSDF with parameters from textures. A BSDF whose parameter NAME a texture may replace has a member set_NAME(value);
+/// if set_alpha() needs tables, also prepare_alpha(), which computes them.
+///   throws : Error unless the BSDF has the parameters and the textures lie in [0, 1].
+class TexturedBsdf {
+ public:
+  /// The BSDF `untextured` with these textures.
+  TexturedBsdf(Bsdf untextured, BsdfTextures textures);
+
+  /// The BSDF without textures, with the smallest roughness of the surface.
+  const Bsdf& untextured() const { return untextured_; }
+  /// BSDF at the texture coordinates uv. Its colours are at most 1: interpolation may round above 1.
+  Bsdf at(const Vec2d& uv) const {
+    return dispatch(untextured_, [&](auto bsdf) -> Bsdf {
+      const auto color = [&](const Texture& t) { return Spectrum(t.eval(uv).min(Float(1))); };
+      if constexpr (requires { bsdf.set_alpha(Float()); })
+        if (textures_.alpha) bsdf.set_alpha(textures_.alpha->at(uv));
+      if constexpr (requires { bsdf.set_diffuse_reflectance(Spectrum()); })
+        if (const auto& t = textures_.diffuse_reflectance) bsdf.set_diffuse_reflectance(color(*t));
+      if constexpr (requires { bsdf.set_specular_reflectance(Spectrum()); })
+        if (const auto& t = textures_.specular_reflectance) bsdf.set_specular_reflectance(color(*t));
+      if constexpr (requires { bsdf.set_specular_transmittance(Spectrum()); })
+        if (const auto& t = textures_.specular_transmittance) bsdf.set_specular_transmittance(color(*t));
+      return bsdf;
+    });
+  }
+
+ private:
+  Bsdf untextured_;
+  BsdfTextures textures_;
+};
+
+} // namespace render
