@@ -47,12 +47,4 @@ inline std::string error_of(const std::function<void()>& f) {
   return "";
 }
 
-/// Reference images and scenes of others: they are not part of the project. The variable MC_REFERENCES names their
-/// folder; tests that only compare with them are skipped without it.
-inline std::string reference_file(const std::string& file) {
-  const char* folder = std::getenv("MC_REFERENCES");
-  return folder == nullptr ? "" : std::string(folder) + "/" + file;
-}
-inline bool has_reference_file(const std::string& file) { return std::filesystem::exists(reference_file(file)); }
-
 } // namespace support

@@ -1,4 +1,4 @@
-// The gallery against the small images of tests/refs, which carlo rendered with many independent samples.
+// Regression test: the gallery against the small images of tests/refs, which carlo rendered with many independent samples.
 
 #include <render/io/image/image_io.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -11,12 +11,12 @@
 
 namespace {
 
-struct Gallery : testing::TestWithParam<const char*> {};
+struct Regression : testing::TestWithParam<const char*> {};
 
 // Sums over blocks of 4x4 pixels and over the image differ by at most 5 standard errors. With 1821 normal numbers in
 // all scenes this fails for one seed in a thousand. The seed is fixed. The variance of our pixels follows from the
 // reference, because its 8192 samples estimate it better than our 256.
-TEST_P(Gallery, AgreesWithItsReference) {
+TEST_P(Regression, GalleryIsAsItWas) {
   const std::string name = GetParam();
   const render::Image reference = render::read_image(MC_SOURCE_DIR "/tests/refs/" + name + ".exr");
   const render::SceneFile file = render::read_mitsuba(MC_SOURCE_DIR "/librender/scenes/" + name + ".xml");
@@ -54,7 +54,7 @@ TEST_P(Gallery, AgreesWithItsReference) {
   std::printf("%s: the worst block is %.2f standard errors off\n", name.c_str(), worst);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Gallery,
+INSTANTIATE_TEST_SUITE_P(Gallery, Regression,
                          testing::Values("cbox", "book3-cornell-aluminium", "book3-cornell-first",
                                          "book3-cornell-glass", "book3-cornell-glass-guided", "book3-cornell-white",
                                          "smallpt", "book1-diffuse", "book1-fuzzy-metal", "book1-glass",
