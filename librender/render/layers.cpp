@@ -1,7 +1,7 @@
+#include <render/integrator/shading_point.h>
 #include <render/layers.h>
 #include <render/scene/visibility.h>
 
-#include <mc/core/frame.h>
 #include <mc/core/parallel.h>
 #include <mc/sampler/path_sample_stream.h>
 
@@ -56,7 +56,7 @@ Met look(const Scene& scene, Ray ray, const Vec3d& origin) {
   m.n = point.ns;
   m.p = point.p.cast<double>() + origin;
   m.z = (point.p - camera.origin()).cast<double>().dot(camera.forward().cast<double>());
-  m.albedo = albedo(scene.bsdf(surface, *hit, point, varied), mc::Frame<Float>::from_z(point.ns).to_local(-ray.d));
+  m.albedo = albedo(scene.bsdf(surface, *hit, point, varied), ShadingFrame(point, -ray.d).to_local(-ray.d));
   m.id = hit->shape + 1;
   return m;
 }

@@ -88,8 +88,8 @@ TEST(Extremes, ABlackSphereOnALargeGround) {
   }
 }
 
-// No light enters a closed icosahedron with any shading normals.
-TEST(Extremes, SmoothNormalsLetNoLightThrough) {
+// An icosahedron of radius 1.9 with the normals of a ball.
+TriangleMesh smooth_icosahedron() {
   const Float g = (1 + std::sqrt(Float(5))) / 2;
   std::vector<Vec3> corners, normals;
   for (const Float a : {Float(-1), Float(1)})
@@ -109,10 +109,15 @@ TEST(Extremes, SmoothNormalsLetNoLightThrough) {
         if (mc::cross<Float>(q - p, r - p).dot(p) > 0) faces.push_back({i, j, k});
         else faces.push_back({i, k, j});
       }
-  ASSERT_EQ(faces.size(), 20u);
+  EXPECT_EQ(faces.size(), 20u);
+  return {corners, faces, normals};
+}
+
+// No light enters a closed icosahedron with any shading normals.
+TEST(Extremes, SmoothNormalsLetNoLightThrough) {
   SceneBuilder builder;
   const BsdfId white = builder.add(Lambert(Spectrum::Ones()));
-  builder.add(TriangleMesh(corners, faces, normals), {white});
+  builder.add(smooth_icosahedron(), {white});
   builder.add(Sphere(Vec3d(0, 5, 0), 1), {white, Emission{Spectrum::Constant(100)}});
   builder.add(Light(ConstantBackground(Spectrum::Ones())));
   const Scene scene = builder.build();
@@ -121,6 +126,33 @@ TEST(Extremes, SmoothNormalsLetNoLightThrough) {
         support::traced(scene, {Vec3::Zero(), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy), 4}, 5'000);
     EXPECT_EQ(m.mean(), 0) << strategy;
   }
+}
+
+// In a furnace of 1 a white icosahedron is invisible, also at its outline, where the normals face away from the camera.
+TEST(Extremes, SmoothNormalsLoseNoLight) {
+  SceneBuilder builder;
+  builder.add(smooth_icosahedron(), {builder.add(Lambert(Spectrum::Ones()))});
+  builder.add(Light(ConstantBackground(Spectrum::Ones())));
+  const Scene scene = builder.build();
+  const Vec3 eye = Vec3(3, 4, 12);
+  const auto frame = mc::Frame<Float>::from_z(-eye.normalized());
+  int bent = 0;
+  for (int i = 0; i < 32; ++i) {
+    // From outside to inside, until the ray meets the mesh.
+    for (Float r = 2; r > 0; r -= Float(0.02)) {
+      const double angle = 2 * mc::pi<double> * i / 32;
+      const Vec3 at = frame.to_world({r * Float(std::cos(angle)), r * Float(std::sin(angle)), 0});
+      const Ray ray{eye, (at - eye).normalized()};
+      const auto hit = scene.intersect(ray);
+      if (!hit) continue;
+      bent += scene.surface_point(ray, *hit).ns.dot(ray.d) > 0;
+      for (const std::string& strategy : unbiased())
+        expect_mean(support::traced(scene, ray, {strategy_from(strategy)}, 500), 1, 1e-4,
+                    fmt::format("{} at {} degrees", strategy, 360 * i / 32));
+      break;
+    }
+  }
+  EXPECT_GE(bent, 8);
 }
 
 // The same for a sphere of radius r and radiance 1 / r^2: cos / d^2.

@@ -2,6 +2,7 @@
 /// Quantities along camera rays that need no path tracing.
 
 #include <render/film/image.h>
+#include <render/integrator/shading_point.h>
 #include <render/scene/visibility.h>
 
 namespace render {
@@ -33,10 +34,10 @@ template <class SceneType> class AovIntegrator {
     const auto hit = sample_nearest_hit(scene_, ray, stream, rays);
     if (!hit) return Spectrum::Ones();
     const SurfacePoint point = scene_.surface(*hit).shape->surface_point(ray, *hit);
-    const auto frame = mc::Frame<Float>::from_z(point.ns.dot(ray.d) < 0 ? point.ns : Vec3(-point.ns));
-    const Vec3 d = frame.to_world(mc::CosineHemisphere<Float>{}.sample(stream.next2()));
-    if (d.dot(point.ng) * ray.d.dot(point.ng) >= 0) return Spectrum::Zero(); // below the geometric surface
-    Ray shadow = point.spawn_ray(d);
+    const Lambert matte;
+    const auto s = ShadingPoint<Lambert>(matte, point, -ray.d).sample(0, stream.next2());
+    if (!s) return Spectrum::Ones();
+    Ray shadow = point.spawn_ray(ShadingFrame(point, -ray.d).to_world(s->wi));
     shadow.t_max = Float(aov_.max_distance);
     return Spectrum::Constant(shadow_transmittance(scene_, shadow, {}, rays));
   }

@@ -32,9 +32,8 @@ connect_to_light(const SceneType& scene, DirectLighting direct_lighting, const D
   const auto s = source.sample(isect.point.p, {choice.u_remapped, u[1]});
   if (!s || is_black(s->radiance)) return {};
   const Vec3 wi = isect.frame.to_local(s->wi);
-  if (!same_geometric_side(isect, wi, s->wi)) return {};
-  const Spectrum f = isect.bsdf.eval(isect.wo, wi);
-  if (is_black(f)) return {};
+  const Spectrum f_cos = isect.f_cos(wi);
+  if (is_black(f_cos)) return {};
   const std::optional<Ray> ray = s->point ? isect.point.spawn_ray_to(*s->point, s->wi) : isect.point.spawn_ray(s->wi);
   if (!ray) return {};
   const Float length = s->point ? (s->point->p - isect.point.p).norm() : mc::infinity<Float>;
@@ -43,8 +42,7 @@ connect_to_light(const SceneType& scene, DirectLighting direct_lighting, const D
   const Float pdf = choice.pmf * s->pdf;
   const bool is_shared = direct_lighting == DirectLighting::mis && !source.is_delta();
   const Float weight = is_shared ? mc::power_heuristic(pdf, mixture.pdf(isect, wi, s->wi)) : Float(1);
-  return LightConnection{f * arriving * (std::abs(wi.z()) * weight / pdf), weight, pdf,
-                         static_cast<std::uint32_t>(choice.index), *s};
+  return LightConnection{f_cos * arriving * (weight / pdf), weight, pdf, static_cast<std::uint32_t>(choice.index), *s};
 }
 
 } // namespace render

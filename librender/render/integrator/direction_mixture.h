@@ -1,10 +1,9 @@
 #pragma once
 /// Sampling of the next direction at a path vertex.
 
+#include <render/integrator/shading_point.h>
 #include <render/integrator/strategy.h>
-#include <render/scene/scene.h>
 
-#include <mc/core/frame.h>
 #include <mc/table/discrete.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/mixture_n.h>
@@ -23,25 +22,6 @@
 
 namespace render {
 
-/// A path vertex with a BSDF of type B.
-template <class B> struct ShadingPoint {
-  /// BSDF at the vertex.
-  const B& bsdf;
-  /// Position and normals.
-  const SurfacePoint& point;
-  mc::Frame<Float> frame; ///< Local frame with the shading normal as z.
-  Vec3 wo;                ///< Direction toward the previous vertex, in the frame.
-};
-
-/// Whether scattering toward wi (d in world space) is reflection, or transmission, with respect to both the geometric
-/// and the shading normal. Directions on which the two normals disagree are rejected, so that light cannot leak through
-/// the surface.
-template <class B> bool same_geometric_side(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d) {
-  if (isect.point.ns == isect.point.ng) return true;
-  const Float seen_from = isect.frame.to_world(isect.wo).dot(isect.point.ng);
-  return (seen_from * d.dot(isect.point.ng) > 0) == (isect.wo.z() * wi.z() > 0);
-}
-
 /// A sampled next direction.
 struct ScatterSample {
   Vec3 d;          ///< Direction in world space.
@@ -51,6 +31,7 @@ struct ScatterSample {
   Float eta; ///< Index ratio of a refraction; see BsdfSample.
   /// Density over the density of pure BSDF sampling: large if the direction was aimed at a small target.
   Float guiding_pdf_ratio;
+  bool reversible = true; ///< See ShadingSample.
 };
 
 /// Whether the strategy can find every light of the scene. Strategies without next-event estimation never find point
@@ -85,7 +66,7 @@ class DirectionMixture {
   ///   targets          : shapes, which must outlive the mixture.
   DirectionMixture(std::vector<const Shape*> targets, Float guiding_fraction);
 
-  /// Samples a direction. Returns nothing if the sample is absorbed or rejected by same_geometric_side().
+  /// Samples a direction. Returns nothing if the sample is absorbed.
   template <class B, class Stream>
   RENDER_FLAT std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
     if (!target_distribution_ || isect.bsdf.lobes().is_near_specular()) return sample_bsdf(isect, stream);
@@ -97,8 +78,8 @@ class DirectionMixture {
 
   /// Density [1/sr] of a direction, given in the frame (wi) and in world space (d).
   template <class B> Float pdf(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d) const {
-    if (!target_distribution_) return isect.bsdf.pdf(isect.wo, wi);
-    return combined_pdf(isect, uses_bsdf_ ? isect.bsdf.pdf(isect.wo, wi) : Float(0), targets_pdf(isect, wi, d));
+    if (!target_distribution_) return isect.pdf(wi);
+    return combined_pdf(isect, uses_bsdf_ ? isect.pdf(wi) : Float(0), targets_pdf(isect, wi, d));
   }
 
  private:
@@ -114,26 +95,24 @@ class DirectionMixture {
   template <class B, class Stream>
   static std::optional<ScatterSample> sample_bsdf(const ShadingPoint<B>& isect, Stream& stream) {
     const Float uc = stream.next();
-    const auto s = isect.bsdf.sample(isect.wo, uc, stream.next2());
+    const auto s = isect.sample(uc, stream.next2());
     if (!s) return {};
-    const Vec3 d = isect.frame.to_world(s->wi);
-    if (!same_geometric_side(isect, s->wi, d)) return {};
     const bool is_near_specular = s->delta || isect.bsdf.lobes().is_near_specular();
-    return ScatterSample{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_near_specular ? Float(0) : s->pdf, s->eta, 1};
+    return ScatterSample{
+        isect.frame.to_world(s->wi), s->f_cos / s->pdf, is_near_specular ? Float(0) : s->pdf, s->eta, 1, s->reversible};
   }
 
   // Samples the BSDF, which was selected with probability pmf.
   template <class B>
   std::optional<ScatterSample> sample_bsdf_part(const ShadingPoint<B>& isect, const Vec2& u, Float pmf,
                                                 Float uc) const {
-    const auto s = isect.bsdf.sample(isect.wo, uc, u);
+    const auto s = isect.sample(uc, u);
     if (!s) return {};
     const Vec3 d = isect.frame.to_world(s->wi);
-    if (!same_geometric_side(isect, s->wi, d)) return {};
-    if (s->delta) return ScatterSample{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta, pmf};
+    if (s->delta) return ScatterSample{d, s->f_cos / (s->pdf * pmf), 0, s->eta, pmf, s->reversible};
     if (!uses_bsdf_) return {};
     const Float density = combined_pdf(isect, s->pdf, targets_pdf(isect, s->wi, d));
-    return ScatterSample{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta, density / s->pdf};
+    return ScatterSample{d, s->f_cos / density, density, s->eta, density / s->pdf};
   }
 
   // Samples a target.
@@ -172,10 +151,8 @@ class DirectionMixture {
   template <class B>
   std::optional<ScatterSample> guided_sample(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d,
                                              Float targets) const {
-    if (!same_geometric_side(isect, wi, d)) return {};
-    const Float own = isect.bsdf.pdf(isect.wo, wi), density = combined_pdf(isect, own, targets);
-    return ScatterSample{d, isect.bsdf.eval(isect.wo, wi) * (std::abs(wi.z()) / density), density,
-                         isect.bsdf.eta(isect.wo, wi), density / own};
+    const Float own = isect.pdf(wi), density = combined_pdf(isect, own, targets);
+    return ScatterSample{d, isect.f_cos(wi) / density, density, isect.eta(wi), density / own};
   }
 
   // Density of the mixture from the densities of its two parts.

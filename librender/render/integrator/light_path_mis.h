@@ -37,15 +37,16 @@ class LightPathMis {
   /// The path leaves the scene.
   void escape(PartialMisWeight& partial_mis) const { partial_mis.add_vertex(1, 1); }
 
-  /// The path scatters in the direction d.
-  ///   pdf : density of d [1/sr]; 0 after a near-specular lobe.
-  ///   eta : index ratio; see BsdfSample.
+  /// The path scatters.
   template <class B>
-  void scatter(PartialMisWeight& partial_mis, int edges, const ShadingPoint<B>& isect, const Vec3& d, Float pdf,
-               Float eta) const {
-    const bool near_specular = pdf == 0;
-    partial_mis.scatter(pdf_rev_squared(edges, isect, isect.frame.to_local(d), near_specular, eta),
-                        near_specular ? 1 : double(pdf), std::abs(double(isect.point.ng.dot(d))));
+  void scatter(PartialMisWeight& partial_mis, int edges, const ShadingPoint<B>& isect,
+               const ScatterSample& next) const {
+    const Vec3 wi = isect.frame.to_local(next.d);
+    const double cosine = std::abs(double(isect.point.ng.dot(next.d)));
+    if (next.pdf > 0) return partial_mis.scatter(pdf_rev_squared(edges, isect, wi), double(next.pdf), cosine);
+    // light paths do not connect to the camera there, and scatter only by reversible lobes
+    const bool competes = edges > 1 && next.reversible;
+    partial_mis.scatter(competes ? mc::sqr(near_specular_reverse_pdf(isect.wo, wi, next.eta)) : 0, 1, cosine);
   }
 
   /// Ratio for a path that hits a light.
@@ -66,7 +67,7 @@ class LightPathMis {
     const SurfacePoint* end = light.sample.point ? &*light.sample.point : nullptr;
     const double at_light = end ? std::abs(double(end->ng.dot(wi))) : 1,
                  here = std::abs(double(isect.point.ng.dot(wi)));
-    return partial_mis.squared_ratio(pdf_rev_squared(edges, isect, isect.frame.to_local(wi), false, 1)) *
+    return partial_mis.squared_ratio(pdf_rev_squared(edges, isect, isect.frame.to_local(wi))) *
            light_tracer_->emission_pdf_squared(light.index, end, isect.point.p, wi) *
            mc::sqr(here / (double(light.pdf) * at_light));
   }
@@ -77,19 +78,21 @@ class LightPathMis {
   template <class B>
   double reconnection_ratio(PartialMisWeight partial_mis, int edges, const ShadingPoint<B>& isect,
                             const SurfacePoint& next, const Vec3& d, Float pdf) const {
-    scatter(partial_mis, edges, isect, d, pdf, 1);
+    scatter(partial_mis, edges, isect, {.d = d, .weight = {}, .pdf = pdf, .eta = 1, .guiding_pdf_ratio = 1});
     const Vec3 way = next.p - isect.point.p;
     partial_mis.add_vertex(std::abs(double(next.ng.dot(d))), way.cast<double>().squaredNorm());
-    return partial_mis.squared_ratio(mc::sqr(double(next.ns.dot(d))));
+    // density of the diffuse lobe, which is mirrored at the geometric normal
+    const double direct = std::abs(double(next.ns.dot(d)));
+    const double mirrored = direct - 2 * std::abs(double(next.ng.dot(d))) * double(next.ng.dot(next.ns));
+    return partial_mis.squared_ratio(mc::sqr(direct + std::max(mirrored, 0.0)));
   }
 
  private:
   // Squared density with which a light path that arrives at `isect` from wi scatters back along the camera path.
-  template <class B>
-  static double pdf_rev_squared(int edges, const ShadingPoint<B>& isect, const Vec3& wi, bool near_specular,
-                                Float eta) {
-    if (edges == 1) return near_specular ? 0 : 1; // at the first vertex light paths connect to the camera
-    return mc::sqr(reverse_pdf(isect.bsdf, isect.wo, wi, near_specular, eta));
+  template <class B> static double pdf_rev_squared(int edges, const ShadingPoint<B>& isect, const Vec3& wi) {
+    if (edges == 1) return 1; // at the first vertex light paths connect to the camera
+    const auto reverse = isect.reverse(wi);
+    return mc::sqr(double(reverse.at.pdf(reverse.wi)));
   }
 
   const LightTracer* light_tracer_;

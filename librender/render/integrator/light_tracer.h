@@ -90,30 +90,17 @@ class LightTracer {
     bool from_delta_light = false; ///< The light cannot be hit.
     int edges = 0;
   };
-  // Density [1/sr] with which a camera path that arrives at `isect` from wi scatters back along the light path. For a
-  // near-specular lobe relative to the forward density, as in reverse_pdf().
+  // Squared density [1/sr^2] with which a camera path scatters back along the light path, by a lobe that is not
+  // near-specular. At the first vertex the squared density of next-event estimation is added, and hits count 0 for a
+  // delta light.
+  //   camera : the vertex as the camera path sees it.
   template <class B>
-  double camera_pdf_rev(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
-                        Float eta) const {
-    if (near_specular) return reverse_pdf(isect.bsdf, isect.wo, wi, near_specular, eta);
-    return double(
-        camera_mixture_.pdf(ShadingPoint<B>{isect.bsdf, isect.point, isect.frame, wi}, isect.wo, -subpath.ray.d));
-  }
-  // camera_pdf_rev() squared. At the first vertex the squared density of next-event estimation is added, and hits count
-  // 0 for a delta light.
-  template <class B>
-  double pdf_rev_squared(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
-                         Float eta) const {
+  double pdf_rev_squared(const typename ShadingPoint<B>::Reverse& camera, const LightSubpath& subpath) const {
     const bool first = subpath.edges == 1;
-    const double bsdf_pdf_squared =
-        first && subpath.from_delta_light ? 0 : mc::sqr(camera_pdf_rev(isect, subpath, wi, near_specular, eta));
-    return first && !near_specular ? bsdf_pdf_squared + subpath.nee_pdf_squared : bsdf_pdf_squared;
-  }
-  // Factor for shading normals: light arrives with the cosine to the geometric normal, and the BSDF uses the cosine to
-  // the shading normal ([Veach97] section 5.3).
-  template <class B> static Float shading_normal_correction(const ShadingPoint<B>& isect) {
-    if (isect.point.ns == isect.point.ng) return 1;
-    return std::abs(isect.wo.z() / isect.frame.to_world(isect.wo).dot(isect.point.ng));
+    const double scatters = first && subpath.from_delta_light
+                                ? 0
+                                : mc::sqr(double(camera_mixture_.pdf(camera.at, camera.wi, -subpath.ray.d)));
+    return first ? scatters + subpath.nee_pdf_squared : scatters;
   }
   template <class Stream, class AddSplat>
   void connect_to_camera(const Interaction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
@@ -163,12 +150,9 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
     if (subpath.edges == 1 && subpath.from_delta_light)
       subpath.partial_mis.add_vertex_from_point(cosine, from_afar ? 1 : distance2);
     else subpath.partial_mis.add_vertex(cosine, from_afar ? 1 : distance2);
-    const auto frame = mc::Frame<Float>::from_z(point.ns);
     std::optional<Bsdf> varied;
     const Interaction<Bsdf> isect{
-        {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-subpath.ray.d)},
-        surface.interior.get(),
-        subpath.media};
+        {scene_->bsdf(surface, *hit, point, varied), point, -subpath.ray.d}, surface.interior.get(), subpath.media};
     if (subpath.edges == 1)
       subpath.nee_pdf_squared = mc::sqr(double(scene_->light_pmf(point.p, light)) *
                                         direction_pdf(scene_->lights()[light], point.p, -subpath.ray.d, source));
@@ -185,21 +169,21 @@ void LightTracer::connect_to_camera(const Interaction<Bsdf>& isect, const LightS
   const auto seen =
       camera.sample_wi(isect.point.p, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
   if (!seen) return;
-  const Vec3 wi = isect.frame.to_local(seen->wi);
-  if (!same_geometric_side(isect, wi, seen->wi)) return;
-  const Spectrum f = isect.bsdf.eval(wi, isect.wo);
-  if (is_black(f)) return;
+  const auto reverse = isect.reverse(isect.frame.to_local(seen->wi));
+  const Spectrum f_cos = reverse.at.f_cos(reverse.wi);
+  if (is_black(f_cos)) return;
   Ray ray = isect.point.spawn_ray(seen->wi);
   ray.t_max = seen->t_max;
   const Spectrum arriving = subpath.beta * transmittance(*scene_, ray, {}, seen->distance, isect.media(seen->wi), rays);
   if (is_black(arriving)) return;
   const double from_camera = double(seen->direction_pdf) * std::abs(double(isect.point.ng.dot(seen->wi))) /
                              mc::sqr(camera.spread(double(seen->distance)));
-  const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared(isect, subpath, wi, false, 1)) *
+  const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared<Bsdf>(reverse, subpath)) *
                            mc::sqr(from_camera / light_path_rate_);
+  const double arrival = std::abs(double(isect.point.ng.dot(subpath.ray.d)));
   add_splat(seen->s,
-            Spectrum(arriving * f * Float(subpath.beta_scale * from_camera / (light_path_rate_ * (1 + mis_ratio))) *
-                     shading_normal_correction(isect)));
+            Spectrum(arriving * f_cos *
+                     Float(subpath.beta_scale * from_camera / (arrival * light_path_rate_ * (1 + mis_ratio)))));
 }
 
 template <class Stream>
@@ -207,21 +191,30 @@ bool LightTracer::scatter(const Interaction<Bsdf>& isect, LightSubpath& subpath,
   const auto next = bsdf_mixture_.sample(isect, stream);
   if (!next) return false;
   const bool near_specular = next->pdf == 0;
+  if (near_specular && !next->reversible) return false; // no camera path takes this step
   const Vec3 wi = isect.frame.to_local(next->d);
+  const double arrival = std::abs(double(isect.point.ng.dot(subpath.ray.d)));
   const double cosine = std::abs(double(isect.point.ng.dot(next->d)));
+  const auto reverse = isect.reverse(wi);
   // A near-specular lobe counts as a delta lobe. The exception is a lobe of positive width at the first vertex after a
   // delta light, since next-event estimation from the camera evaluates this lobe.
   const bool as_near_specular =
       near_specular && (subpath.edges > 1 || !subpath.from_delta_light || isect.bsdf.lobes().has_delta);
   Float pdf = next->pdf;
-  if (near_specular) pdf = as_near_specular ? Float(1) : isect.bsdf.pdf(isect.wo, wi);
-  // Light travels from wo to wi, and BSDFs need not be reciprocal, so the arguments of eval are swapped. Near-specular
-  // lobes are reciprocal except for the compression of radiance in glass, which does not apply to light paths.
-  const Spectrum weight = near_specular ? Spectrum(next->weight * (mc::sqr(next->eta) / std::abs(wi.z())))
-                                        : Spectrum(isect.bsdf.eval(wi, isect.wo) / next->pdf);
-  subpath.beta *= weight * (shading_normal_correction(isect) * Float(cosine));
+  if (near_specular) pdf = as_near_specular ? Float(1) : isect.pdf(wi);
+  // Light travels from wo to wi, and BSDFs need not be reciprocal, so the directions are exchanged. Near-specular lobes
+  // are reciprocal except for the compression of radiance in glass, which does not apply to light paths. Light arrives
+  // with the cosine to the geometric normal, and f_cos has the cosine to the shading normal ([Veach97] section 5.3).
+  const Spectrum f_cos_over_pdf = near_specular
+                                      ? Spectrum(next->weight * (mc::sqr(next->eta) * std::abs(isect.wo.z() / wi.z())))
+                                      : Spectrum(reverse.at.f_cos(reverse.wi) / next->pdf);
+  subpath.beta *= f_cos_over_pdf * Float(cosine / arrival);
   if (is_black(subpath.beta)) return false;
-  subpath.partial_mis.scatter(pdf_rev_squared(isect, subpath, wi, as_near_specular, next->eta), double(pdf), cosine);
+  const bool hits_light = subpath.edges > 1 || !subpath.from_delta_light;
+  const double pdf_rev2 = !as_near_specular ? pdf_rev_squared<Bsdf>(reverse, subpath)
+                          : hits_light      ? mc::sqr(near_specular_reverse_pdf(isect.wo, wi, next->eta))
+                                            : 0;
+  subpath.partial_mis.scatter(pdf_rev2, double(pdf), cosine);
   if (subpath.edges >= 4) {
     const Float survival = std::clamp(4 * subpath.beta.maxCoeff() / subpath.initial_beta_max,
                                       std::numeric_limits<Float>::min(), Float(0.99));

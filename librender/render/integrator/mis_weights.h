@@ -8,14 +8,11 @@
 
 namespace render {
 
-/// Density [1/sr] of sampling wo at a vertex where the path arrives from wi: the reverse of a step that sampled wi from
-/// wo.
-///   near_specular : the step sampled a delta or near-specular lobe. The result is then relative to the forward
-///                   density, which counts as 1. Both directions select the lobe with the same probability, and
-///                   refraction maps solid angles by d omega_i = cos_o / (eta^2 cos_i) d omega_o.
-template <class B> double reverse_pdf(const B& bsdf, const Vec3& wo, const Vec3& wi, bool near_specular, Float eta) {
-  if (near_specular) return std::abs(double(wo.z())) / (mc::sqr(double(eta)) * std::abs(double(wi.z())));
-  return double(bsdf.pdf(wi, wo));
+/// Density of sampling wo from wi by a delta or near-specular lobe that sampled wi from wo, relative to the forward
+/// density, which counts as 1. Both directions select the lobe with the same probability, and refraction maps solid
+/// angles by d omega_i = cos_o / (eta^2 cos_i) d omega_o.
+inline double near_specular_reverse_pdf(const Vec3& wo, const Vec3& wi, Float eta) {
+  return std::abs(double(wo.z())) / (mc::sqr(double(eta)) * std::abs(double(wi.z())));
 }
 
 /// Squared density with which the other end would generate a path, over the squared density of the path itself. The

@@ -39,7 +39,7 @@ struct NoLightPaths {
   /// See LightPathMis.
   void escape(PartialWeight&) const {}
   /// See LightPathMis.
-  template <class Interaction> void scatter(PartialWeight&, int, const Interaction&, const Vec3&, Float, Float) const {}
+  template <class Interaction> void scatter(PartialWeight&, int, const Interaction&, const ScatterSample&) const {}
   /// No light path competes with a hit.
   double emission_ratio(const PartialWeight&, int, std::uint32_t, const SurfacePoint*, const Vec3&, const Vec3&) const {
     return 0;
@@ -114,10 +114,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
 
     /// The vertex with its shading frame, for a path that arrives by state.ray.
     Interaction interaction(const PathState& state) const {
-      const auto frame = mc::Frame<Float>::from_z(point.ns);
-      return {{*bsdf, point, frame, frame.to_local(-state.ray.d)},
-              surface ? surface->interior.get() : nullptr,
-              state.media};
+      return {{*bsdf, point, -state.ray.d}, surface ? surface->interior.get() : nullptr, state.media};
     }
   };
 
@@ -230,7 +227,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     state.guiding_pdf_ratio =
         next->pdf > 0 ? next->guiding_pdf_ratio : state.guiding_pdf_ratio * next->guiding_pdf_ratio;
     if (is_black(state.beta)) return false;
-    light_mis_.scatter(state.partial_mis, state.edges, isect, next->d, next->pdf, next->eta);
+    light_mis_.scatter(state.partial_mis, state.edges, isect, *next);
     state.previous_point = isect.point.p;
     state.ray = isect.point.spawn_ray(next->d);
     state.media = isect.media(next->d);

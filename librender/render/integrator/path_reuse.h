@@ -79,8 +79,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathReuseIntegra
 
   /// Connection of a non-delta vertex (fork) to a shared vertex.
   struct Reconnection {
-    Spectrum f;       ///< beta f, with the transmittance of the medium.
-    double measure;   ///< V |cos_i| g: visibility, cosine at the fork, and solid angle to area at the shared vertex.
+    Spectrum f_cos;   ///< beta f |cos|, with the transmittance of the medium.
+    double measure;   ///< V g: visibility, and solid angle to area at the shared vertex.
     double area_pdf;  ///< Density of the fork's own path at the shared vertex [1/area], times V.
     double mis_ratio; ///< Squared density ratio of light paths, up to a factor common to all forks.
   };
@@ -149,7 +149,8 @@ auto PathReuseIntegrator<SceneType, LightMis>::extend_to_shared_vertex(std::size
   Vertex vertex;
   if (!paths_.sample_bsdf(state, fork.vertex.interaction(state), stream)) return {};
   if (!next_vertex(state, vertex, stream, rays, add_radiance)) return {};
-  if (state.previous_pdf == 0 || !vertex.bsdf->lobes().is_diffuse()) {
+  if (state.previous_pdf == 0 || !vertex.bsdf->lobes().is_diffuse() ||
+      ShadingFrame::faces_away(vertex.point, -state.ray.d)) {
     trace_on(state, vertex, stream, rays, add_radiance);
     return {};
   }
@@ -170,13 +171,12 @@ auto PathReuseIntegrator<SceneType, LightMis>::reconnect(const ForkVertex& fork,
   const double distance2 = way.squaredNorm(), distance = std::sqrt(distance2);
   if (!(distance2 > 0)) return {};
   const Vec3 d = is_owner ? shared.d : Vec3((way / distance).template cast<Float>());
-  const auto same_side = [&](const Vec3& n) { return (d.dot(n) < 0) == (shared.d.dot(n) < 0); };
-  if (!same_side(shared.point.ng) || !same_side(shared.point.ns)) return {};
+  if ((d.dot(shared.point.ng) < 0) != (shared.d.dot(shared.point.ng) < 0)) return {};
+  if (ShadingFrame::faces_away(shared.point, -d)) return {}; // it would reflect other light to the fork
   const Vec3 wi = isect.frame.to_local(d);
-  if (!same_geometric_side(isect, wi, d)) return {};
-  Spectrum f = fork.state.beta * isect.bsdf.eval(isect.wo, wi);
+  Spectrum f_cos = fork.state.beta * isect.f_cos(wi);
   const Float pdf = is_owner ? shared.pdf : paths_.direction_mixture().pdf(isect, wi, d);
-  if (is_black(f) || !(pdf > 0)) return {}; // its path could not have sampled y
+  if (is_black(f_cos) || !(pdf > 0)) return {}; // its path could not have sampled y
   Float transmittance = 1;
   if (!is_owner || paths_.scene().has_masks()) {
     const auto ray = isect.point.spawn_ray_to(shared.point, d);
@@ -184,9 +184,9 @@ auto PathReuseIntegrator<SceneType, LightMis>::reconnect(const ForkVertex& fork,
     if (transmittance == 0) return {};
   }
   if (const HomogeneousMedium* medium = isect.media(d).current) [[unlikely]]
-    f *= medium->transmittance(Float(distance));
+    f_cos *= medium->transmittance(Float(distance));
   const double g = std::abs(double(d.dot(shared.point.ng))) / distance2;
-  return Reconnection{f, transmittance * std::abs(double(wi.z())) * g, transmittance * double(pdf) * g,
+  return Reconnection{f_cos, transmittance * g, transmittance * double(pdf) * g,
                       mis_ratio(fork, isect, shared, d, pdf)};
 }
 
@@ -212,7 +212,7 @@ void PathReuseIntegrator<SceneType, LightMis>::distribute(const SharedVertex& sh
       light += RadianceContribution{contribution.value,
                                     contribution.mis_ratio * (reconnections[i]->mis_ratio / own->mis_ratio)}
                    .weighted();
-    radiances[i] += reconnections[i]->f * light * Float(reconnections[i]->measure / density);
+    radiances[i] += reconnections[i]->f_cos * light * Float(reconnections[i]->measure / density);
   }
 }
 

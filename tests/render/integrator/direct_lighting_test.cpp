@@ -26,7 +26,7 @@ struct Floor {
     SurfacePoint point;
     point.p = Vec3::Zero();
     point.ng = point.ns = Vec3::UnitZ();
-    const Interaction<Bsdf> isect{{bsdf, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()}, nullptr, {}};
+    const Interaction<Bsdf> isect{{bsdf, point, point.ng}, nullptr, {}};
     const mc::IndependentPairs numbers(1, 0);
     mc::IndependentPathStream<Float> stream(numbers, 0);
     const Strategy& mis = strategy_from("mis");

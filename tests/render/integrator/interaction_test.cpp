@@ -13,7 +13,7 @@ TEST(Interaction, MediumFollowsSideOfDirection) {
   const HomogeneousMedium ink(Spectrum::Ones()), outer(Spectrum::Ones());
   const Vec3 in(0, 0, -1), out(0, 0, 1);
   const auto from = [&](const Vec3& wo, const HomogeneousMedium* interior, const MediumStack& before) {
-    return Interaction<Dielectric>{{glass, point, mc::Frame<Float>::from_z(point.ns), wo}, interior, before};
+    return Interaction<Dielectric>{{glass, point, wo}, interior, before};
   };
   const auto entering = from(out, &ink, {.current = &outer});
   EXPECT_EQ(entering.media(in).current, &ink);

@@ -46,8 +46,7 @@ TEST(LightPathMis, HitsAndConnections_CompeteWithTheSameLightPaths) {
     };
     const SurfacePoint one = point_between(first, -d0, d1), two = point_between(second, -d1, d2);
     const auto isect = [&](const SurfacePoint& point, const Vec3& wo) {
-      const auto frame = mc::Frame<Float>::from_z(point.ns);
-      return ShadingPoint<Bsdf>{scene.bsdf(scene.surfaces()[0]), point, frame, frame.to_local(wo)};
+      return ShadingPoint<Bsdf>(scene.bsdf(scene.surfaces()[0]), point, wo);
     };
     const LightConnection light{Spectrum::Ones(), 1, Float(0.7), 0, {d2, Spectrum::Ones(), 1, lamp}};
     const Float pdf = Float(0.2);
@@ -56,10 +55,11 @@ TEST(LightPathMis, HitsAndConnections_CompeteWithTheSameLightPaths) {
     mis.arrive(partial_mis, 1, eye, d0, one);
     EXPECT_EQ(mis.direct_ratio(partial_mis, 1, isect(one, -d0), light), 0);
     EXPECT_EQ(mis.emission_ratio(partial_mis, 2, 0, &lamp, first, d1), 0);
-    mis.scatter(partial_mis, 1, isect(one, -d0), d1, Float(0.3), 1);
+    const auto next = [](const Vec3& d, Float density) { return ScatterSample{d, Spectrum::Ones(), density, 1, 1}; };
+    mis.scatter(partial_mis, 1, isect(one, -d0), next(d1, Float(0.3)));
     mis.arrive(partial_mis, 2, first, d1, two);
     const double ratio_of_nee = mis.direct_ratio(partial_mis, 2, isect(two, -d1), light);
-    mis.scatter(partial_mis, 2, isect(two, -d1), d2, pdf, 1);
+    mis.scatter(partial_mis, 2, isect(two, -d1), next(d2, pdf));
     mis.arrive(partial_mis, 3, second, d2, lamp);
     const double ratio_of_hit = mis.emission_ratio(partial_mis, 3, 0, &lamp, second, d2);
     EXPECT_GT(ratio_of_hit, 0);
