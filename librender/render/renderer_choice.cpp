@@ -18,7 +18,8 @@ RendererChoice::RendererChoice(const Scene& scene, const RenderOptions& options,
                                const LightTracer* light_tracer)
     : extent_(extent) {
   const bool is_open = options.adaptive && options.aov.kind == Aov::radiance && !options.branches;
-  const auto path = [&](int branches) { return PathOptions{options.strategy, options.max_depth, branches}; };
+  const RayCone cone = RayCone::of_pixel(scene.camera(), extent.width, extent.height);
+  const auto path = [&](int branches) { return PathOptions{options.strategy, options.max_depth, branches, cone}; };
   const auto add = [&](int branches) {
     renderers_.emplace_back(std::in_place_type<PixelRenderer>, scene, path(branches), points, extent, splat,
                             light_tracer, options.aov);

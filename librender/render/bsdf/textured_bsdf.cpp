@@ -34,6 +34,10 @@ TexturedBsdf::TexturedBsdf(Bsdf untextured, BsdfTextures textures)
     }
     return bsdf;
   });
+  const auto& [diffuse, specular, transmitted, alpha] = textures_;
+  for (const auto* texture : {&diffuse, &specular, &transmitted})
+    is_filtered_ = is_filtered_ || (*texture && (*texture)->is_filtered());
+  is_filtered_ = is_filtered_ || (alpha && alpha->is_filtered());
 }
 
 } // namespace render

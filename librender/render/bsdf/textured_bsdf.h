@@ -15,7 +15,9 @@ class RoughnessTexture {
     texture_.require_reflectance(is_root ? "roughness" : "alpha");
   }
   /// Roughness alpha at uv.
-  Float at(const Vec2d& uv) const { return alpha(texture_.eval(uv).mean()); }
+  Float at(const Vec2d& uv, Float footprint = 0) const { return alpha(texture_.eval(uv, footprint).mean()); }
+  /// See Texture.
+  bool is_filtered() const { return texture_.is_filtered(); }
   /// Smallest roughness alpha anywhere.
   Float least() const { return alpha(texture_.least()); }
 
@@ -47,12 +49,15 @@ class TexturedBsdf {
 
   /// The BSDF without textures, with the smallest roughness of the surface.
   const Bsdf& untextured() const { return untextured_; }
-  /// BSDF at the texture coordinates uv. Its colours are at most 1: interpolation may round above 1.
-  Bsdf at(const Vec2d& uv) const {
+  /// Whether some texture depends on the footprint.
+  bool is_filtered() const { return is_filtered_; }
+  /// BSDF at the texture coordinates uv, for a footprint as in Texture. Its colours are at most 1: interpolation may
+  /// round above 1.
+  Bsdf at(const Vec2d& uv, Float footprint = 0) const {
     return dispatch(untextured_, [&](auto bsdf) -> Bsdf {
-      const auto color = [&](const Texture& t) { return Spectrum(t.eval(uv).min(Float(1))); };
+      const auto color = [&](const Texture& t) { return Spectrum(t.eval(uv, footprint).min(Float(1))); };
       if constexpr (requires { bsdf.set_alpha(Float()); })
-        if (textures_.alpha) bsdf.set_alpha(textures_.alpha->at(uv));
+        if (textures_.alpha) bsdf.set_alpha(textures_.alpha->at(uv, footprint));
       if constexpr (requires { bsdf.set_diffuse_reflectance(Spectrum()); })
         if (const auto& t = textures_.diffuse_reflectance) bsdf.set_diffuse_reflectance(color(*t));
       if constexpr (requires { bsdf.set_specular_reflectance(Spectrum()); })
@@ -66,6 +71,7 @@ class TexturedBsdf {
  private:
   Bsdf untextured_;
   BsdfTextures textures_;
+  bool is_filtered_ = false;
 };
 
 } // namespace render

@@ -2,6 +2,7 @@
 /// Path tracing from the camera.
 
 #include <render/integrator/direct_lighting.h>
+#include <render/integrator/ray_cone.h>
 
 #include <mc/estimate/russian_roulette.h>
 
@@ -12,6 +13,7 @@ struct PathOptions {
   Strategy strategy = strategy_from("mis"); ///< How paths find light.
   int max_depth = -1;                       ///< Largest number of edges (1: only directly visible light); -1: no limit.
   int branches = 2;                         ///< Number of branches at the first non-delta vertex.
+  RayCone cone = {};                        ///< Cone of a camera ray.
 };
 
 /// Light that a path finds.
@@ -91,6 +93,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     /// Density of the directions since the last rough vertex over the density of pure BSDF sampling.
     Float guiding_pdf_ratio = 1;
     int edges = 0;          ///< Number of edges so far.
+    RayCone cone = {};      ///< Footprint of the path.
     MediumStack media = {}; ///< Media along the ray.
     /// Ratio of light paths to this path.
     [[no_unique_address]] typename LightMis::PartialWeight partial_mis = {};
@@ -122,7 +125,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   ///   light_mis : weights against light paths of the same scene.
   explicit PathIntegrator(const SceneType& scene, const PathOptions& options = {}, const LightMis& light_mis = {})
       : scene_(scene), direct_lighting_(options.strategy.direct_lighting), max_depth_(options.max_depth),
-        branches_(options.branches), light_mis_(light_mis),
+        branches_(options.branches), cone_(options.cone), filters_textures_(scene.has_filtered_textures()),
+        light_mis_(light_mis),
         direction_mixture_(light_mis_.directions(scene, options.strategy)) {}
 
   /// Estimates the radiance that arrives along `ray`, with one sample. `rays` counts the rays traced.
@@ -164,6 +168,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   PathState start_path(const Ray& ray, const MediumStack& media) const {
     PathState state{ray, ray.o - scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d};
     state.media = media;
+    state.cone = cone_;
     state.partial_mis = light_mis_.start(ray.d);
     return state;
   }
@@ -190,7 +195,12 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     vertex.point = vertex.surface->shape->surface_point(state.ray, *hit);
     light_mis_.arrive(state.partial_mis, state.edges, state.previous_point, state.ray.d, vertex.point);
     if (state.edges == max_depth_ || vertex.surface->absorbs(vertex.point, state.ray.d)) return false;
-    vertex.bsdf = &scene_.bsdf(*vertex.surface, *hit, vertex.point, vertex.bsdf_storage);
+    Float footprint = 0;
+    if (filters_textures_) {
+      state.cone.advance(Float(hit->t));
+      footprint = state.cone.footprint(state.ray.d.dot(vertex.point.ng));
+    }
+    vertex.bsdf = &scene_.bsdf(*vertex.surface, *hit, vertex.point, vertex.bsdf_storage, footprint);
     return true;
   }
 
@@ -230,6 +240,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     light_mis_.scatter(state.partial_mis, state.edges, isect, *next);
     state.previous_point = isect.point.p;
     state.ray = isect.point.spawn_ray(next->d);
+    if (filters_textures_) state.cone.scatter(next->pdf);
     state.media = isect.media(next->d);
     return true;
   }
@@ -255,7 +266,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
  private:
   // A vertex within a medium, with the phase function as BSDF and the direction of arrival as axis. Media that scatter
   // need the scene's BSDFs to be of type Bsdf.
-  bool scatter_in_medium(const PathState& state, Vertex& vertex, const Vec3& p) const {
+  bool scatter_in_medium(PathState& state, Vertex& vertex, const Vec3& p) const {
+    if (filters_textures_) state.cone.advance((p - state.previous_point).norm());
     vertex.escapes = false;
     const Vec3 axis = -state.ray.d.normalized();
     vertex.point = {.p = p, .ng = axis, .ns = axis};
@@ -301,6 +313,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   DirectLighting direct_lighting_;
   int max_depth_;
   int branches_;
+  RayCone cone_;
+  bool filters_textures_;
   [[no_unique_address]] LightMis light_mis_;
   DirectionMixture direction_mixture_;
 };

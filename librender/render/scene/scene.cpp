@@ -18,6 +18,10 @@ Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std
   has_volumes_ = (ambient_medium_ && ambient_medium_->scatters()) || any_surface([&](const Surface& s) {
                    return s.interior && (s.interior->scatters() || material(s).mask);
                  });
+  has_filtered_textures_ = any_surface([&](const Surface& s) {
+    const auto& texture = material(s).texture;
+    return texture && texture->is_filtered();
+  });
 
   const Bounds& bounds = bvh_.bounds();
   const double radius = surfaces_.empty() ? 1.0 : (bounds.hi - bounds.lo).cast<double>().norm() / 2;

@@ -81,12 +81,16 @@ class Scene {
   /// The BSDF of a surface; for a textured surface a BSDF of the same kind.
   const Bsdf& bsdf(const Surface& surface) const { return material(surface).bsdf; }
   /// The BSDF of a surface at the hit `point`. `bsdf_storage` holds it if a texture varies it.
-  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point,
-                   std::optional<Bsdf>& bsdf_storage) const {
+  ///   footprint : size on the surface over which textures are averaged [scene units]; 0: a point.
+  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point, std::optional<Bsdf>& bsdf_storage,
+                   Float footprint = 0) const {
     const Material& m = material(surface);
     if (!m.texture) [[likely]]
       return m.bsdf;
-    return bsdf_storage.emplace(m.texture->at(surface.shape->uv(hit, point)));
+    const Float in_uv = footprint > 0 && m.texture->is_filtered()
+                            ? footprint * Float(surface.shape->uv_scale(hit, point))
+                            : Float(0);
+    return bsdf_storage.emplace(m.texture->at(surface.shape->uv(hit, point), in_uv));
   }
   /// Whether some surface has a mask. Rays then need visibility.h.
   bool has_masks() const { return has_masks_; }
@@ -102,6 +106,8 @@ class Scene {
   bool has_media() const { return has_media_; }
   /// Whether some medium scatters or has an invisible boundary. Camera paths alone find light there.
   bool has_volumes() const { return has_volumes_; }
+  /// Whether some texture depends on the footprint of a path.
+  bool has_filtered_textures() const { return has_filtered_textures_; }
   /// Medium outside of all surfaces; null: vacuum.
   const HomogeneousMedium* ambient_medium() const { return ambient_medium_.get(); }
 
@@ -135,7 +141,7 @@ class Scene {
   std::vector<std::uint32_t> infinite_lights_;
   std::optional<LightSampler> light_sampler_;
   std::shared_ptr<const HomogeneousMedium> ambient_medium_;
-  bool has_masks_, has_media_, has_volumes_;
+  bool has_masks_, has_media_, has_volumes_, has_filtered_textures_;
   Bvh bvh_;
   ThinLens camera_;
   Filter filter_;

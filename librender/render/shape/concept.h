@@ -80,6 +80,7 @@ struct DirectionSample {
 ///                                      faces ref.
 ///   surface_point(ray, hit) : the point of a Hit.
 ///   has_uv(), uv(hit, point) : texture coordinates, if the shape has any.
+///   uv_scale(hit, point) : root of the area in texture coordinates over the area on the surface, around the point.
 ///   discard_uvs()     : frees the texture coordinates.
 ///   discard_sampling_table() : frees the data that only sampling reads, for shapes that are never sampled.
 template <class T>
@@ -95,6 +96,7 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.is_spherical() } -> std::convertible_to<bool>;
   { s.projected_solid_angle_bound(ref) } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
+  { s.uv_scale(h, hit) } -> std::convertible_to<double>;
 };
 
 /// Direction to the point that shape.sample returns: the sample_direction of shapes without a better method.

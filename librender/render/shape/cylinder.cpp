@@ -109,4 +109,6 @@ mc::Vec2<double> Cylinder::uv(const Hit&, const SurfacePoint& point) const {
   return {mc::azimuth_turns<double>(at.x(), at.y()), std::clamp(at.z() / height_, 0.0, 1.0)};
 }
 
+double Cylinder::uv_scale(const Hit&, const SurfacePoint&) const { return 1 / std::sqrt(area()); }
+
 } // namespace render

@@ -37,6 +37,7 @@ class Cylinder {
 
   bool has_uv() const { return true; }
   mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const;
+  double uv_scale(const Hit&, const SurfacePoint&) const;
   void discard_uvs() {}
   void discard_sampling_table() {}
 

@@ -98,4 +98,10 @@ mc::Vec2<double> Disk::uv(const Hit&, const SurfacePoint& point) const {
   return {std::min(std::hypot(x, y), 1.0), turn < 0 ? turn + 1 : turn};
 }
 
+// du dv = dr dphi / (2 pi), and the area is proportional to r dr dphi.
+double Disk::uv_scale(const Hit& hit, const SurfacePoint& point) const {
+  constexpr double least = 1e-3; // of the radius
+  return 1 / std::sqrt(2 * area_ * std::max(uv(hit, point)[0], least));
+}
+
 } // namespace render

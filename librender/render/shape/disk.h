@@ -60,6 +60,7 @@ class Disk {
 
   bool has_uv() const { return true; }
   mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const;
+  double uv_scale(const Hit&, const SurfacePoint& point) const;
   void discard_uvs() {}
   void discard_sampling_table() {}
 

@@ -44,6 +44,14 @@ mc::Vec2<double> Sphere::uv(const Hit&, const SurfacePoint& point) const {
   return {turn - std::floor(turn - min_u_), std::atan2(std::hypot(d.x(), d.y()), d.z()) / mc::pi<double>};
 }
 
+// du dv = dtheta dphi / (2 pi^2), and the area is r^2 sin theta dtheta dphi.
+double Sphere::uv_scale(const Hit&, const SurfacePoint& point) const {
+  constexpr double least = 1e-3;
+  const Vec3d d = uv_axes_.transpose() * (point.p.cast<double>() - center_);
+  const double sine = std::max(std::hypot(d.x(), d.y()) / radius_, least);
+  return 1 / (mc::pi<double> * radius_ * std::sqrt(2 * sine));
+}
+
 bool Sphere::contains(const Vec3d& offset) const { return !is_cap() || offset.dot(axis_) >= radius_ - height_; }
 
 std::optional<double> Sphere::intersect(const Ray& ray) const {

@@ -144,6 +144,15 @@ mc::Vec2<double> TriangleMesh::uv(const Hit& hit, const SurfacePoint&) const {
   return (1 - b1 - b2) * uvs_[i].cast<double>() + b1 * uvs_[j].cast<double>() + b2 * uvs_[k].cast<double>();
 }
 
+double TriangleMesh::uv_scale(const Hit& hit, const SurfacePoint&) const {
+  const auto triangle = static_cast<std::size_t>(hit.prim);
+  const auto& [i, j, k] = faces_[triangle].vertices;
+  const auto [a, b, c] = vertices(triangle);
+  const double area = mc::cross<Float>(b - a, c - a).template cast<double>().norm();
+  const mc::Vec2<double> p = (uvs_[j] - uvs_[i]).cast<double>(), q = (uvs_[k] - uvs_[i]).cast<double>();
+  return std::sqrt(std::abs(p[0] * q[1] - p[1] * q[0]) / area);
+}
+
 // The point comes from t, not from the float weights of the hit, which would move it along a large triangle. Rounding
 // could move a point near an edge behind the adjacent triangle. A step of a few errors towards the centre keeps it in
 // front of both.

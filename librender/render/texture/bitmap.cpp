@@ -6,9 +6,11 @@
 namespace render {
 
 Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map, Wrap wrap, TexelFilter filter)
-    : texels_(std::move(texels)), map_(map), wrap_(wrap), filter_(filter) {
+    : texels_(std::move(texels)), map_(map), wrap_(wrap), filter_(filter),
+      texels_per_uv_(std::sqrt(std::abs(map.scale().prod()) * texels_->width * texels_->height)) {
   texels_->require_all("bitmap", "is not finite; repair the picture",
                        [](const Spectrum& s) { return s.isFinite().all(); });
+  if (filter == TexelFilter::trilinear) pyramid_ = std::make_shared<const ImagePyramid>(texels_);
 }
 
 Float Bitmap::least() const {
@@ -68,11 +70,23 @@ struct Neighbours {
 
 } // namespace
 
-Spectrum Bitmap::eval(const Vec2d& uv) const {
+Spectrum Bitmap::eval(const Vec2d& uv, Float footprint) const {
   const Vec2d p = map_.unwrapped(uv);
-  const Neighbours x(p[0], texels_->width, wrap_, filter_), y(p[1], texels_->height, wrap_, filter_);
+  const double texels = double(footprint) * texels_per_uv_;
+  if (!pyramid_ || !(texels > 1)) return interpolate(*texels_, p);
+  // Level i averages over 2^i texels.
+  const std::size_t last = pyramid_->size() - 1;
+  const double level = std::min(std::log2(texels), double(last));
+  const auto i = static_cast<std::size_t>(level);
+  const auto weight = Float(level - double(i));
+  const Spectrum fine = interpolate(pyramid_->level(i), p);
+  return weight == 0 ? fine : Spectrum((1 - weight) * fine + weight * interpolate(pyramid_->level(i + 1), p));
+}
+
+Spectrum Bitmap::interpolate(const Texels& image, const Vec2d& p) const {
+  const Neighbours x(p[0], image.width, wrap_, filter_), y(p[1], image.height, wrap_, filter_);
   const auto row = [&](std::size_t j) -> Spectrum {
-    const Spectrum* texels = &texels_->values[j * static_cast<std::size_t>(texels_->width)];
+    const Spectrum* texels = &image.values[j * static_cast<std::size_t>(image.width)];
     return (1 - x.weight) * texels[x.first] + x.weight * texels[x.second];
   };
   return (1 - y.weight) * row(y.first) + y.weight * row(y.second);

@@ -12,11 +12,13 @@ class Checkerboard {
   Checkerboard(const Spectrum& color0, const Spectrum& color1, const UvMap& map = UvMap())
       : color0_(color0), color1_(color1), map_(map) {}
 
-  /// Colour at uv.
-  Spectrum eval(const Vec2d& uv) const {
+  /// Colour at uv, for any footprint.
+  Spectrum eval(const Vec2d& uv, Float = 0) const {
     const Vec2d p = map_(uv);
     return (p[0] < 0.5) == (p[1] < 0.5) ? color0_ : color1_;
   }
+  /// Squares have sharp edges.
+  bool is_filtered() const { return false; }
   /// Smallest value of any channel.
   Float least() const { return color0_.min(color1_).minCoeff(); }
   /// Throws Error that begins with `what` unless both colours lie in [0, 1].

@@ -20,6 +20,11 @@ struct Texels {
                 "picture: {} values for {}x{}", values.size(), w, h);
   }
 
+  /// The value in a column and a row.
+  const Spectrum& at(int x, int y) const {
+    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
+
   /// Throws Error "WHO: texel (1, 0) of 'FILE' = (2, 0, 0) WRONG" for the first value for which is_good is false.
   template <class F> void require_all(std::string_view who, std::string_view wrong, const F& is_good) const {
     const auto bad = std::find_if_not(values.begin(), values.end(), is_good);

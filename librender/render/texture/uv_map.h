@@ -26,6 +26,8 @@ class UvMap {
     const Vec2d moved = unwrapped(uv);
     return {fraction(moved[0]), fraction(moved[1])};
   }
+  /// The scale.
+  const Vec2d& scale() const { return scale_; }
   /// uv * scale + offset.
   Vec2d unwrapped(const Vec2d& uv) const { return uv.cwiseProduct(scale_) + offset_; }
   /// frac(x) in [0,1). Rounds the fraction of -1e-20 to just below 1 instead of 1. The fraction of infinity is 0.

@@ -274,7 +274,7 @@ template <class B> struct Recovered : Scene {
   B own;
   Recovered(Scene scene, B bsdf) : Scene(std::move(scene)), own(std::move(bsdf)) {}
   const B& bsdf(const Surface&) const { return own; }
-  const B& bsdf(const Surface&, const Hit&, const SurfacePoint&, std::optional<Bsdf>&) const { return own; }
+  const B& bsdf(const Surface&, const Hit&, const SurfacePoint&, std::optional<Bsdf>&, Float) const { return own; }
 };
 
 // Lambert with a NaN in one component.

@@ -31,6 +31,28 @@ TEST(Shape, AnswersAsItsMember) {
   EXPECT_EQ(shape.pdf(ref, a->wi, a->point), a->pdf);
 }
 
+// With points uniform in area, uv_scale^2 area is the density of the shape's texture coordinates: each cell of a grid
+// has its area.
+TEST(Shape, UvScaleIsTheDensityOfTextureCoordinates) {
+  mc::Pcg random(14);
+  const Vec3d axis = Vec3d(1, 2, 2) / 3;
+  for (const Shape& shape : {Shape(Sphere(Vec3d(1, 2, 3), 2.5)), Shape(Cylinder(Vec3d(0, 1, 0), axis, 0.7)),
+                             Shape(Disk(Transform::scale(Vec3d(2, 3, 1))))}) {
+    constexpr std::size_t cells = 4;
+    std::array<mc::Moments, cells * cells> shares;
+    for (int i = 0; i < 40'000; ++i) {
+      const SurfacePoint point = *shape.sample_area(random.point<Float, 2>());
+      const mc::Vec2<double> uv = shape.uv({}, point);
+      const auto cell = [](double x) { return std::min(static_cast<std::size_t>(x * cells), cells - 1); };
+      const double weight = mc::sqr(shape.uv_scale({}, point)) * shape.area();
+      for (std::size_t k = 0; k < shares.size(); ++k)
+        shares[k].add(k == cells * cell(uv[0]) + cell(uv[1]) ? weight : 0);
+    }
+    for (const mc::Moments& share : shares)
+      EXPECT_NEAR(share.mean(), 1.0 / (cells * cells), 5 * share.std_error()) << shape.index();
+  }
+}
+
 // Compares areas and solid angles with statistics of samples. Lights are selected by projected_solid_angle_bound, so
 // samples estimate the projected solid angle of 400 shapes. Tolerance: five standard errors plus a thousandth, because
 // just inside a sphere nearly all samples agree. Rays find the points of sample_area on the shape, and parts of equal

@@ -124,6 +124,11 @@ TEST(TriangleMesh, TextureCoordinatesFillTheSidesOfABox) {
       EXPECT_GT(mc::cross<double>(p(1, 0) - p(0, 0), p(0, 1) - p(0, 0)).dot(p(0.3, 0.3) - Vec3d(5, 6, 7)), 0);
     }
     EXPECT_EQ(area, 1) << side;
+    const double sides[] = {4 * 2 * 3, 4 * 2 * 1, 4 * 3 * 1};
+    const double scale = box.uv_scale({0, 0, 2 * side}, SurfacePoint());
+    EXPECT_TRUE(std::any_of(std::begin(sides), std::end(sides),
+                            [&](double a) { return std::abs(scale * scale * a - 1) < 1e-5; }))
+        << side;
   }
 }
 

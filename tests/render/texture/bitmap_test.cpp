@@ -115,4 +115,38 @@ TEST(BitmapTexture, NamesTheFirstTexelThatIsNoReflectance) {
             "whose values reach from -0.25 to 0.5");
 }
 
+// A footprint of at most a texel is a point; one of the whole image gives its mean. The mean over the image is the same
+// for all footprints, and a footprint of 2^i texels averages over as many.
+TEST(BitmapTexture, TrilinearAveragesOverTheFootprint) {
+  mc::Pcg random(4);
+  constexpr int n = 16;
+  std::vector<Spectrum> values;
+  double mean = 0;
+  for (int i = 0; i < n * n; ++i) {
+    values.push_back(grey(random.uniform<double>()));
+    mean += double(values.back()[0]) / (n * n);
+  }
+  const auto image = texels(n, n, values);
+  const Bitmap sharp(image), filtered(image, render::UvMap(), render::Wrap::repeat, render::TexelFilter::trilinear),
+      small(image, render::UvMap({4, 4}), render::Wrap::repeat, render::TexelFilter::trilinear);
+  EXPECT_TRUE(filtered.is_filtered() && !sharp.is_filtered());
+  EXPECT_EQ(sharp.eval({0.3, 0.7}, Float(0.5))[0], sharp.eval({0.3, 0.7})[0]);
+  EXPECT_EQ(filtered.eval({0.3, 0.7}, Float(1) / n)[0], sharp.eval({0.3, 0.7})[0]);
+  EXPECT_NEAR(filtered.eval({0.3, 0.7}, 1)[0], mean, 1e-5);
+  EXPECT_NEAR(filtered.eval({0.3, 0.7}, 1e9f)[0], mean, 1e-5);
+  // Four texels are one of level 2, whose centre lies at (2 + 4 i) / n.
+  double four = 0;
+  for (int y = 4; y < 8; ++y)
+    for (int x = 8; x < 12; ++x) four += double(image->at(x, y)[0]) / 16;
+  EXPECT_NEAR(filtered.eval({10.0 / n, 6.0 / n}, Float(4) / n)[0], four, 1e-5);
+  EXPECT_NEAR(small.eval({10.0 / n / 4, 6.0 / n / 4}, Float(1) / n)[0], four, 1e-5);
+  for (const double footprint : {0.0, 0.1, 0.3, 0.9}) {
+    double sum = 0;
+    constexpr int points = 160;
+    for (int i = 0; i < points * points; ++i)
+      sum += double(filtered.eval({(i % points + 0.5) / points, (i / points + 0.5) / points}, Float(footprint))[0]);
+    EXPECT_NEAR(sum / (points * points), mean, 1e-3) << footprint;
+  }
+}
+
 } // namespace

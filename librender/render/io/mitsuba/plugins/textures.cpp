@@ -17,7 +17,9 @@ Moved moved_of(const XmlElement& e, Context&) {
   return {{m(0, 0), m(1, 1)}, t.translation.head<2>()};
 }
 
-constexpr std::size_t nearest = 3; // index in filterType
+// Filters, in the order of their names in filterType.
+constexpr TexelFilter filters[] = {TexelFilter::bilinear, TexelFilter::trilinear, TexelFilter::trilinear,
+                                   TexelFilter::nearest};
 
 struct Repeats {
   std::optional<double> u, v, both;
@@ -44,8 +46,7 @@ std::optional<Transfer> transfer_of(bool raw, const std::optional<double>& gamma
 Texture make_bitmap(const UvMap& map, std::size_t wrap, std::size_t filter, bool raw,
                     const std::optional<double>& gamma, const PictureSource& picture) {
   constexpr Wrap wraps[] = {Wrap::repeat, Wrap::clamp, Wrap::mirror};
-  return Bitmap(picture(transfer_of(raw, gamma)), map, wraps[wrap],
-                filter == nearest ? TexelFilter::nearest : TexelFilter::bilinear);
+  return Bitmap(picture(transfer_of(raw, gamma)), map, wraps[wrap], filters[filter]);
 }
 
 Texture make_checkerboard(const UvMap& map, const Spectrum& color0, const Spectrum& color1) {
@@ -96,7 +97,10 @@ const Plugins<Texture>& texture_plugins() {
           "bitmap", "a picture, bilinear between its texels; 8 bits are decoded by the sRGB curve, or a PNG's gAMA",
           make_bitmap, choice("wrapMode", {"repeat", "clamp", "mirror"}, "beyond its edges", 0),
           choice("filterType", {"bilinear", "trilinear", "ewa", "nearest"},
-                 "between its texels; trilinear and ewa are bilinear here", 0),
+                 "between its texels; trilinear also averages over the footprint of the path, which is faster to a given "
+                 "noise and blurs a little; ewa is trilinear here",
+                 0)
+              .with_lajolla_default(1, "trilinear"),
           boolean("raw", "whether the codes of the picture are linear, as gamma 1"),
           optional(number("gamma", "", "exponent that decodes the codes, 1: linear; -1: the sRGB curve"))
               .with_default(std::nullopt, "by the file"),
