@@ -22,7 +22,8 @@ void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
   const auto bsdf = static_cast<std::size_t>(properties.bsdf);
   mc::require(bsdf < materials_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf,
               materials_.size());
-  const bool textured = materials_[bsdf].needs_uv();
+  const bool textured =
+      materials_[bsdf].needs_uv() || (properties.emission && properties.emission->texture.has_value());
   mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs{}{}",
               surfaces_.size(), properties.missing_uv_reason.empty() ? "" : ": ", properties.missing_uv_reason);
   mc::require(!properties.emission || !materials_[bsdf].mask,

@@ -79,7 +79,7 @@ struct DirectionSample {
 ///                                      orientation of the receiver. At most pi, and close for a distant shape that
 ///                                      faces ref.
 ///   surface_point(ray, hit) : the point of a Hit.
-///   has_uv(), uv(hit, point) : texture coordinates, if the shape has any.
+///   has_uv(), uv(hit, point) : texture coordinates, if the shape has any; uv(point) for a point without its hit.
 ///   uv_scale(hit, point) : root of the area in texture coordinates over the area on the surface, around the point.
 ///   discard_uvs()     : frees the texture coordinates.
 ///   discard_sampling_table() : frees the data that only sampling reads, for shapes that are never sampled.

@@ -104,7 +104,7 @@ SurfacePoint Cylinder::surface_point(const Ray& ray, const Hit& hit) const {
   return point(outward.x(), outward.y(), at.z());
 }
 
-mc::Vec2<double> Cylinder::uv(const Hit&, const SurfacePoint& point) const {
+mc::Vec2<double> Cylinder::uv(const SurfacePoint& point) const {
   const Vec3d at = frame_.to_local(point.p.cast<double>() - base_);
   return {mc::azimuth_turns<double>(at.x(), at.y()), std::clamp(at.z() / height_, 0.0, 1.0)};
 }

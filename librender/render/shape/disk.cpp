@@ -90,7 +90,7 @@ SurfacePoint Disk::surface_point(const Ray& ray, const Hit& hit) const {
   return point(ray.o.cast<double>() + hit.t * ray.d.cast<double>());
 }
 
-mc::Vec2<double> Disk::uv(const Hit&, const SurfacePoint& point) const {
+mc::Vec2<double> Disk::uv(const SurfacePoint& point) const {
   const Vec3d p = point.p.cast<double>() - center_;
   const double x = plane_.x[0] * p.x() + plane_.x[1] * p.y() + plane_.x[2] * p.z();
   const double y = plane_.y[0] * p.x() + plane_.y[1] * p.y() + plane_.y[2] * p.z();
@@ -99,9 +99,9 @@ mc::Vec2<double> Disk::uv(const Hit&, const SurfacePoint& point) const {
 }
 
 // du dv = dr dphi / (2 pi), and the area is proportional to r dr dphi.
-double Disk::uv_scale(const Hit& hit, const SurfacePoint& point) const {
+double Disk::uv_scale(const Hit&, const SurfacePoint& point) const {
   constexpr double least = 1e-3; // of the radius
-  return 1 / std::sqrt(2 * area_ * std::max(uv(hit, point)[0], least));
+  return 1 / std::sqrt(2 * area_ * std::max(uv(point)[0], least));
 }
 
 } // namespace render

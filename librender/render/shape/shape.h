@@ -52,6 +52,9 @@ struct Shape : std::variant<TriangleMesh, Sphere, Disk, Cylinder> {
   mc::Vec2<double> uv(const Hit& hit, const SurfacePoint& point) const {
     return dispatch(*this, [&](const auto& s) { return s.uv(hit, point); });
   }
+  mc::Vec2<double> uv(const SurfacePoint& point) const {
+    return dispatch(*this, [&](const auto& s) { return s.uv(point); });
+  }
   double uv_scale(const Hit& hit, const SurfacePoint& point) const {
     return dispatch(*this, [&](const auto& s) { return s.uv_scale(hit, point); });
   }

@@ -37,7 +37,7 @@ Sphere Sphere::with_uv_axes(const Eigen::Matrix3d& axes, double min_u) const {
   return s;
 }
 
-mc::Vec2<double> Sphere::uv(const Hit&, const SurfacePoint& point) const {
+mc::Vec2<double> Sphere::uv(const SurfacePoint& point) const {
   const Vec3d d = uv_axes_.transpose() * (point.p.cast<double>() - center_);
   const double turn = std::atan2(d.y(), d.x()) / (2 * mc::pi<double>);
   // The angle from the pole by its tangent: acos would lose half of the digits there.

@@ -47,7 +47,8 @@ class Sphere {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
   bool has_uv() const { return true; }
-  mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const;
+  mc::Vec2<double> uv(const SurfacePoint& point) const;
+  mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const { return uv(point); }
   double uv_scale(const Hit&, const SurfacePoint& point) const;
   void discard_uvs() {}
   void discard_sampling_table() {}

@@ -144,6 +144,15 @@ mc::Vec2<double> TriangleMesh::uv(const Hit& hit, const SurfacePoint&) const {
   return (1 - b1 - b2) * uvs_[i].cast<double>() + b1 * uvs_[j].cast<double>() + b2 * uvs_[k].cast<double>();
 }
 
+mc::Vec2<double> TriangleMesh::uv(const SurfacePoint& point) const {
+  const auto corners = vertices(static_cast<std::size_t>(point.prim));
+  const Vec3d a = corners[0].cast<double>(), e = corners[1].cast<double>() - a, f = corners[2].cast<double>() - a,
+              d = point.p.cast<double>() - a, n = mc::cross<double>(e, f);
+  const double b1 = mc::cross<double>(d, f).dot(n) / n.squaredNorm(),
+               b2 = mc::cross<double>(e, d).dot(n) / n.squaredNorm();
+  return uv({0, 0, point.prim, Float(b1), Float(b2)}, point);
+}
+
 double TriangleMesh::uv_scale(const Hit& hit, const SurfacePoint&) const {
   const auto triangle = static_cast<std::size_t>(hit.prim);
   const auto& [i, j, k] = faces_[triangle].vertices;

@@ -51,6 +51,7 @@ class TriangleMesh {
 
   bool has_uv() const { return !uvs_.empty(); }
   mc::Vec2<double> uv(const Hit& hit, const SurfacePoint&) const;
+  mc::Vec2<double> uv(const SurfacePoint& point) const;
   double uv_scale(const Hit& hit, const SurfacePoint&) const;
   /// Frees the memory of texture coordinates that nothing reads.
   void discard_uvs() { uvs_ = decltype(uvs_)(); }

@@ -47,4 +47,36 @@ TEST(AreaLight, RefusesNonsense) {
   EXPECT_THROW(AreaLight(flat, {}), mc::Error);
 }
 
+// The radiance of a texture where a light is hit, sampled or left; its mean decides power and irradiance.
+TEST(AreaLight, TextureVariesTheRadiance) {
+  const Spectrum bright(4, 2, 6), dark = Spectrum::Zero();
+  const Texture halves = Checkerboard(bright, dark, UvMap({1, 0}));
+  for (const auto& shape : {square(), std::make_shared<const Shape>(Sphere(Vec3d::Zero(), 1))}) {
+    const AreaLight light(shape, {Spectrum::Constant(Float(0.5)), false, halves}),
+        plain(shape, {Spectrum::Ones(), false});
+    EXPECT_NEAR(light.radiance()[0], 1, 0.02);
+    EXPECT_NEAR(light.power(1) / plain.power(1), double(luminance(bright)) / 4, 0.02);
+    int lit = 0;
+    constexpr int n = 40;
+    for (int i = 0; i < n * n; ++i) {
+      const Vec2 u((Float(i % n) + Float(0.5)) / n, (Float(i / n) + Float(0.5)) / n);
+      const Vec3 ref(Float(0.3), Float(0.2), 4);
+      const auto s = light.sample(ref, u);
+      ASSERT_TRUE(s && s->point);
+      const bool is_bright = shape->uv(*s->point)[0] < 0.5;
+      EXPECT_TRUE((s->radiance == (is_bright ? Spectrum(bright / 2) : dark)).all());
+      EXPECT_TRUE((light.Le(s->wi, &*s->point) == s->radiance).all());
+      const auto e = light.sample_emission(EmissionTargets({}, {}, Bounds()), u, u);
+      ASSERT_TRUE(e && e->point);
+      EXPECT_TRUE((e->radiance == (shape->uv(*e->point)[0] < 0.5 ? Spectrum(bright / 2) : dark)).all());
+      lit += is_bright;
+    }
+    EXPECT_GT(lit, n * n / 4);
+    EXPECT_LT(lit, 3 * n * n / 4);
+  }
+  const auto without_uv = std::make_shared<const Shape>(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+  EXPECT_THROW(AreaLight(without_uv, {Spectrum::Ones(), false, halves}), mc::Error);
+  EXPECT_THROW(AreaLight(square(), {Spectrum::Ones(), false, Checkerboard(bright, Spectrum::Constant(-1))}), mc::Error);
+}
+
 } // namespace

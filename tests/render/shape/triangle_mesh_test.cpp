@@ -125,6 +125,12 @@ TEST(TriangleMesh, TextureCoordinatesFillTheSidesOfABox) {
     }
     EXPECT_EQ(area, 1) << side;
     const double sides[] = {4 * 2 * 3, 4 * 2 * 1, 4 * 3 * 1};
+    for (const auto& [b1, b2] : {std::pair(0.2, 0.3), {0.9, 0.05}, {0.0, 1.0}})
+      for (const int triangle : {2 * side, 2 * side + 1}) {
+        const mc::Vec2<double> by_point = box.uv(box.point(static_cast<std::size_t>(triangle), b1, b2)),
+                               by_hit = box.uv({0, 0, triangle, Float(b1), Float(b2)}, SurfacePoint());
+        EXPECT_LE((by_point - by_hit).norm(), 1e-5);
+      }
     const double scale = box.uv_scale({0, 0, 2 * side}, SurfacePoint());
     EXPECT_TRUE(std::any_of(std::begin(sides), std::end(sides),
                             [&](double a) { return std::abs(scale * scale * a - 1) < 1e-5; }))

@@ -136,6 +136,17 @@ Parameter<Spectrum> reflectance(const std::string& name, const std::string& mean
   return p;
 }
 
+Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning) {
+  const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
+    if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
+    return color_of(e, context.extrapolation());
+  };
+  return {{name, "colour or texture", unit, {"rgb", "srgb", "spectrum", "float", "texture", "ref"}, meaning},
+          parse,
+          {},
+          {}};
+}
+
 Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
                                               const Spectrum& fallback) {
   const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {

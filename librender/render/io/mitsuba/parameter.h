@@ -116,6 +116,8 @@ Parameter<Spectrum> color(const std::string& name, const std::string& unit, cons
 Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback);
 /// A constant colour or a texture.
 using Reflectance = std::variant<Spectrum, Texture>;
+/// A colour, constant or from a texture.
+Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning);
 /// A reflectance in [0, 1], constant or from a texture.
 Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
                                               const Spectrum& fallback);

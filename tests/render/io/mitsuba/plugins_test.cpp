@@ -183,6 +183,11 @@ TEST_F(PluginsTest, PicturesOfPaintLieInZeroToOne) {
     EXPECT_THAT(said(shape, NAN), testing::HasSubstr("p.pfm' = (0, nan, 1) is not finite; repair the picture"));
   }
   EXPECT_EQ(said("<emitter type=\"envmap\"><string name=\"filename\" value=\"p.pfm\"/></emitter>", 1000), "");
+  const auto lamp = [&](double texel) {
+    return said("<shape type=\"rectangle\"><emitter type=\"area\">" + bitmap("radiance") + "</emitter></shape>", texel);
+  };
+  EXPECT_EQ(lamp(1000), "");
+  EXPECT_THAT(lamp(-1), testing::HasSubstr("the texture has the value -1; radiance must be >= 0"));
 }
 
 TEST_F(PluginsTest, WhatIsNotDoneIsRefused) {

@@ -6,7 +6,10 @@ namespace {
 
 const std::string radiance_unit = "W/(m^2 sr)";
 
-Emission make_area(const Spectrum& radiance, bool two_sided) { return {radiance, two_sided}; }
+Emission make_area(const Reflectance& radiance, bool two_sided) {
+  if (const auto* texture = std::get_if<Texture>(&radiance)) return {Spectrum::Ones(), two_sided, *texture};
+  return {std::get<Spectrum>(radiance), two_sided};
+}
 
 ConstantBackground make_constant(const Spectrum& radiance) { return ConstantBackground(radiance); }
 
@@ -45,7 +48,7 @@ const Plugins<Emission>& surface_emitter_plugins() {
           "area",
           "the same radiance in every direction, from the side that the shape's normal points to; a lamp "
           "in the plane of another surface, as of a ceiling, is seen or hidden by rounding: keep them apart",
-          make_area, color("radiance", radiance_unit, "what is emitted, >= 0"),
+          make_area, color_or_texture("radiance", radiance_unit, "what is emitted, >= 0"),
           boolean("twoSided", "whether the other side shines too (ours)"))
           .accepting({sampling_weight()}),
   };
