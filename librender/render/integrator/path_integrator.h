@@ -126,8 +126,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
   explicit PathIntegrator(const SceneType& scene, const PathOptions& options = {}, const LightMis& light_mis = {})
       : scene_(scene), direct_lighting_(options.strategy.direct_lighting), max_depth_(options.max_depth),
         branches_(options.branches), cone_(options.cone), filters_textures_(scene.has_filtered_textures()),
-        light_mis_(light_mis),
-        direction_mixture_(light_mis_.directions(scene, options.strategy)) {}
+        light_mis_(light_mis), direction_mixture_(light_mis_.directions(scene, options.strategy)) {}
 
   /// Estimates the radiance that arrives along `ray`, with one sample. `rays` counts the rays traced.
   ///   media : media at the origin of the ray.

@@ -11,8 +11,8 @@ namespace render {
 ///   Source : [AkenineMollerEtAl21], for the growth along a ray; [BelcourEtAl17]: a direction of density p stands for a
 ///            solid angle in proportion to 1 / p.
 struct RayCone {
-  Float width = 0,  ///< Width at the last vertex [scene units].
-      spread = 0;   ///< Growth of the width per unit of length.
+  Float width = 0, ///< Width at the last vertex [scene units].
+      spread = 0;  ///< Growth of the width per unit of length.
 
   /// Cone of a camera ray: a quarter of a pixel wide, since the samples of a pixel are averaged, too.
   ///   width, height : size of the image [pixels].

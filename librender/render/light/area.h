@@ -11,9 +11,9 @@ namespace render {
 
 /// Emission of a surface: the same radiance in all directions on the side of its normal, or on both sides.
 struct Emission {
-  Spectrum radiance = Spectrum::Ones();   ///< Emitted radiance.
-  bool two_sided = false;                 ///< Whether both sides emit.
-  std::optional<Texture> texture = {};    ///< Factor of the radiance that varies over the surface; none: 1.
+  Spectrum radiance = Spectrum::Ones(); ///< Emitted radiance.
+  bool two_sided = false;               ///< Whether both sides emit.
+  std::optional<Texture> texture = {};  ///< Factor of the radiance that varies over the surface; none: 1.
 };
 
 /// A shape that emits.
@@ -27,7 +27,7 @@ class AreaLight {
 
   Spectrum Le(const Vec3& wi, const SurfacePoint* light_point) const {
     return light_point && (two_sided_ || light_point->ng.dot(wi) < 0) ? radiance_at(*light_point)
-                                                                       : Spectrum(Spectrum::Zero());
+                                                                      : Spectrum(Spectrum::Zero());
   }
   std::optional<LightSample> sample(const Vec3& ref, const Vec2& u) const {
     const auto s = shape_->sample(ref, u);

@@ -87,9 +87,8 @@ class Scene {
     const Material& m = material(surface);
     if (!m.texture) [[likely]]
       return m.bsdf;
-    const Float in_uv = footprint > 0 && m.texture->is_filtered()
-                            ? footprint * Float(surface.shape->uv_scale(hit, point))
-                            : Float(0);
+    const Float in_uv =
+        footprint > 0 && m.texture->is_filtered() ? footprint * Float(surface.shape->uv_scale(hit, point)) : Float(0);
     return bsdf_storage.emplace(m.texture->at(surface.shape->uv(hit, point), in_uv));
   }
   /// Whether some surface has a mask. Rays then need visibility.h.

@@ -132,9 +132,9 @@ TEST(TriangleMesh, TextureCoordinatesFillTheSidesOfABox) {
         EXPECT_LE((by_point - by_hit).norm(), 1e-5);
       }
     const double scale = box.uv_scale({0, 0, 2 * side}, SurfacePoint());
-    EXPECT_TRUE(std::any_of(std::begin(sides), std::end(sides),
-                            [&](double a) { return std::abs(scale * scale * a - 1) < 1e-5; }))
-        << side;
+    EXPECT_TRUE(std::any_of(std::begin(sides), std::end(sides), [&](double a) {
+      return std::abs(scale * scale * a - 1) < 1e-5;
+    })) << side;
   }
 }
 

@@ -96,10 +96,11 @@ const Plugins<Texture>& texture_plugins() {
       texture_plugin(
           "bitmap", "a picture, bilinear between its texels; 8 bits are decoded by the sRGB curve, or a PNG's gAMA",
           make_bitmap, choice("wrapMode", {"repeat", "clamp", "mirror"}, "beyond its edges", 0),
-          choice("filterType", {"bilinear", "trilinear", "ewa", "nearest"},
-                 "between its texels; trilinear also averages over the footprint of the path, which is faster to a given "
-                 "noise and blurs a little; ewa is trilinear here",
-                 0)
+          choice(
+              "filterType", {"bilinear", "trilinear", "ewa", "nearest"},
+              "between its texels; trilinear also averages over the footprint of the path, which is faster to a given "
+              "noise and blurs a little; ewa is trilinear here",
+              0)
               .with_lajolla_default(1, "trilinear"),
           boolean("raw", "whether the codes of the picture are linear, as gamma 1"),
           optional(number("gamma", "", "exponent that decodes the codes, 1: linear; -1: the sRGB curve"))
