@@ -1,9 +1,15 @@
 #include <render/io/mesh_scene.h>
 
+#include <render/io/image/image_io.h>
 #include <render/io/mesh/mesh.h>
+#include <render/io/mesh/mtl.h>
 #include <render/scene/builder.h>
 
 #include <mc/core/file.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
 
 namespace render {
 
@@ -61,6 +67,83 @@ Shape ground_below(const Extent& extent, double size) {
       Transform::columns(half * Vec3d::UnitX(), -half * Vec3d::UnitZ(), Vec3d::UnitY(), {0, y, 0}));
 }
 
+const Spectrum grey = Spectrum::Constant(Float(0.6));
+
+/// The materials of an OBJ file.
+class Materials {
+ public:
+  // Reads the files that an OBJ file names. What is missing is a warning, and the material is grey.
+  Materials(const std::string& path, const MeshFile& mesh)
+      : path_(path), folder_(std::filesystem::path(path).parent_path()), files_({path}) {
+    for (const std::string& name : mesh.material_files)
+      if (const auto mtl = existing(name, "mtllib")) materials_.merge(read_mtl(*mtl));
+  }
+
+  /// Adds the triangles of the material with this name.
+  void add(const std::string& name, const MeshFile& triangles, Shape shape, SceneBuilder& builder) {
+    const auto known = materials_.find(name);
+    if (known == materials_.end()) return builder.add(std::move(shape), {builder.add(Lambert(grey))});
+    const MtlMaterial& mtl = known->second;
+    const bool emits = mtl.Ke && !is_black(*mtl.Ke);
+    Material material = material_of(mtl, triangles);
+    if (mtl.d < 1 && !mtl.is_glass() && !emits) material.mask = std::make_shared<const Mask>(Float(mtl.d));
+    SceneBuilder::SurfaceProperties properties{.bsdf = builder.add(std::move(material))};
+    if (emits) properties.emission = Emission{*mtl.Ke};
+    builder.add(std::move(shape), properties);
+  }
+
+  /// All files read.
+  const std::set<std::string>& files() const { return files_; }
+  /// What is missing.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  // Glass, diffuse, or diffuse under a coat whose highlight is about as wide as that of the exponent Ns [WalterEtAl07].
+  Material material_of(const MtlMaterial& mtl, const MeshFile& triangles) {
+    if (mtl.is_glass() && std::abs(mtl.Ni - 1) >= 1e-4) return Bsdf(Dielectric(Float(mtl.Ni)));
+    const Spectrum diffuse = mtl.Kd.value_or(grey).min(Float(1));
+    const Spectrum specular = mtl.Ks.value_or(Spectrum::Zero()).min(Float(1));
+    const auto alpha = Float(std::clamp(std::sqrt(2 / (mtl.Ns + 2)), double(least_alpha), 1.0));
+    const Bsdf bsdf = is_black(specular) ? Bsdf(Lambert(diffuse))
+                                         : Bsdf(RoughPlastic<LayeredBase>(Float(1.5), alpha, diffuse, specular));
+    if (mtl.map_Kd.empty()) return bsdf;
+    if (triangles.uvs.empty()) {
+      warnings_.push_back(fmt::format("{}: map_Kd {} needs texture coordinates, but {}; its Kd is used", path_,
+                                      mtl.map_Kd, triangles.missing_uv_reason));
+      return bsdf;
+    }
+    const auto path = existing(mtl.map_Kd, "map_Kd");
+    if (!path) return bsdf;
+    Image image = read_image(*path);
+    const auto texels = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels), *path);
+    return TexturedBsdf(bsdf, {.diffuse_reflectance = Bitmap(texels)});
+  }
+  // The path of a file that a statement names.
+  std::optional<std::string> existing(std::string name, const char* statement) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    std::string path = (folder_ / name).string();
+    if (std::filesystem::exists(path)) {
+      files_.insert(path);
+      return path;
+    }
+    warnings_.push_back(fmt::format("{}: {} {}: no such file; it is left out", path_, statement, name));
+    return {};
+  }
+
+  std::string path_;
+  std::filesystem::path folder_;
+  std::map<std::string, MtlMaterial, std::less<>> materials_;
+  std::set<std::string> files_;
+  std::vector<std::string> warnings_;
+};
+
+bool has_area(const MeshFile& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const auto& t) {
+    const Vec3d &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+    return mc::cross<double>(b - a, c - a).squaredNorm() > 0;
+  });
+}
+
 } // namespace
 
 bool is_mesh_file(const std::string& path) {
@@ -78,13 +161,21 @@ SceneFile read_mesh_scene(const std::string& path) {
     mc::require(!mesh.triangles.empty(), "no triangle; at least one is needed");
     mc::require(size <= largest, "the mesh reaches {:.3g} from its middle, more than {:.0g}; scale it down", size,
                 largest);
-    TriangleMesh shape = to_shape(mesh, Transform::translate(-middle), mesh.normals.empty());
-    builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
+    const auto shape_of = [&](const MeshFile& part) {
+      return to_shape(part, Transform::translate(-middle), part.normals.empty());
+    };
+    Materials materials(path, mesh);
+    if (mesh.triangle_materials.empty()) builder.add(shape_of(mesh), {builder.add(Lambert(grey))});
+    for (std::uint32_t i = 0; i < mesh.material_names.size(); ++i) {
+      const MeshFile part = part_of(mesh, i);
+      if (has_area(part)) materials.add(mesh.material_names[i], part, shape_of(part), builder);
+    }
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));
     SceneFile file{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
-    file.files = {path};
+    file.files = materials.files();
+    file.warnings = materials.warnings();
     if (mesh.meshes > 1)
       file.warnings.push_back(fmt::format(
           "{}: this is mesh 0 of the {} in it; a scene shows others, by <shape type=\"serialized\"> with shapeIndex",

@@ -1,4 +1,6 @@
 #include <render/io/mesh_scene.h>
+
+#include <render/io/image/image_io.h>
 #include <render/render.h>
 
 #include <support/files.h>
@@ -91,6 +93,55 @@ TEST_F(MeshScene, RefusesWhatCannotBeSeen) {
               HasSubstr("huge.obj: the mesh reaches 7.07e+37 from its middle, more than 1e+30; scale it down"));
   const std::string empty = write("empty.obj", "v 0 0 0\n");
   EXPECT_THAT(support::error_of([&] { read_mesh_scene(empty); }), HasSubstr("empty.obj: no triangle; at least one"));
+}
+
+// Five triangles of five materials, and one without.
+TEST_F(MeshScene, ObjHasItsMaterials) {
+  write("my colours.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl coat\nKd 0.2 0.2 0.2\nKs 1 1 1\nNs 98\n"
+                          "newmtl glass\nillum 7\nNi 1.3\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\nnewmtl veil\nd 0.25\n");
+  std::string text = "mtllib my colours.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
+  for (const char* name : {"red", "coat", "glass", "lamp", "veil", "red"})
+    text += fmt::format("usemtl {}\nf 1 2 4\n", name);
+  const SceneFile file = read_mesh_scene(write("a.obj", text));
+  EXPECT_THAT(file.warnings, testing::IsEmpty());
+  EXPECT_EQ(file.files.size(), 2u);
+  ASSERT_EQ(file.scene.surfaces().size(), 7u); // with the ground
+  const auto bsdf = [&](std::size_t i) { return file.scene.bsdf(file.scene.surfaces()[i]); };
+  EXPECT_NEAR(bsdf(0).albedo(Vec3::UnitZ()), 0.6, 1e-6);
+  EXPECT_EQ(std::get<TriangleMesh>(*file.scene.surfaces()[1].shape).size(), 2u);
+  EXPECT_NEAR(std::get<Lambert>(bsdf(1)).albedo()[0], 0.8, 1e-6);
+  EXPECT_TRUE(std::holds_alternative<RoughPlastic<LayeredBase>>(bsdf(2)));
+  const Vec3 up = Vec3::UnitZ();
+  EXPECT_NEAR(bsdf(2).eval(up, up)[0],
+              RoughPlastic(Float(1.5), std::sqrt(Float(0.02)), Spectrum::Constant(Float(0.2)), Spectrum::Ones())
+                  .eval(up, up)[0],
+              1e-3);
+  EXPECT_EQ(std::get<Dielectric>(bsdf(3)).eta(up, -up), Dielectric(Float(1.3)).eta(up, -up));
+  ASSERT_EQ(file.scene.lights().size(), 2u); // with the sky
+  EXPECT_EQ(*file.scene.surfaces()[4].light, 0u);
+  EXPECT_TRUE(file.scene.has_masks());
+}
+
+TEST_F(MeshScene, MaterialsMayHavePictures) {
+  Image picture(1, 1);
+  picture.at(0, 0) = Spectrum(Float(0.25), Float(0.5), 1);
+  write_image(path("p.pfm"), picture);
+  write("m.mtl", "newmtl a\nmap_Kd -s 1 1 1 p.pfm\nnewmtl b\nmap_Kd q.png\n");
+  const std::string vertices = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n";
+  const SceneFile file = read_mesh_scene(write("a.obj", vertices + "usemtl a\nf 1/1 2/1 3/1\n"));
+  const Ray ray{Vec3(0, 0, 1), Vec3(0, 0, -1)};
+  const auto hit = file.scene.intersect(ray);
+  ASSERT_TRUE(hit);
+  std::optional<Bsdf> storage;
+  const auto& bsdf = file.scene.bsdf(file.scene.surface(*hit), *hit, file.scene.surface_point(ray, *hit), storage);
+  EXPECT_EQ(std::get<Lambert>(bsdf).albedo()[1], Float(0.5));
+  EXPECT_THAT(
+      read_mesh_scene(write("b.obj", vertices + "usemtl a\nf 1 2 3\n")).warnings,
+      testing::ElementsAre(HasSubstr("map_Kd p.pfm needs texture coordinates, but the face of line 7 has none")));
+  EXPECT_THAT(read_mesh_scene(write("c.obj", vertices + "usemtl b\nf 1/1 2/1 3/1\n")).warnings,
+              testing::ElementsAre(HasSubstr("c.obj: map_Kd q.png: no such file")));
+  EXPECT_THAT(read_mesh_scene(write("d.obj", "mtllib x.mtl\n" + vertices + "usemtl z\nf 1 2 3\n")).warnings,
+              testing::ElementsAre(HasSubstr("d.obj: mtllib x.mtl: no such file")));
 }
 
 } // namespace

@@ -20,6 +20,10 @@ struct MeshFile {
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< Indices of the vertices of each triangle.
   std::string missing_uv_reason; ///< Why there are no texture coordinates: "the face of line 7 has none".
   std::size_t meshes = 1;        ///< Number of meshes in the file.
+  /// Material of each triangle as an index in material_names; empty if the file names no material.
+  std::vector<std::uint32_t> triangle_materials = {};
+  std::vector<std::string> material_names = {}; ///< Names of the materials; "" for triangles without one.
+  std::vector<std::string> material_files = {}; ///< Names of the files that describe the materials.
 };
 
 /// The shape of a mesh file, transformed by `to_world`. Triangles are oriented to the side of the normals of the file.
@@ -39,7 +43,10 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
 /// Throws Error for the first vertex or normal that is not finite, or the first triangle with an invalid vertex index.
 void require_valid_mesh(const MeshFile& file);
 
-/// Reads all faces of a Wavefront OBJ file as one mesh and splits polygons into triangles. Ignores materials. If some
+/// The triangles of one material, with their vertices.
+MeshFile part_of(const MeshFile& file, std::uint32_t material);
+
+/// Reads all faces of a Wavefront OBJ file as one mesh and splits polygons into triangles. If some
 /// faces have normals, the others are flat. If none has, vertices are not shared across groups and materials. Texture
 /// coordinates are kept only if all faces have them.
 ///   throws : Error with file and line for a missing or broken file, an index out of range, or a vertex that is not

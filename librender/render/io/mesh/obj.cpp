@@ -1,5 +1,6 @@
 #include <render/io/mesh/mesh.h>
 #include <render/io/mesh/polygon.h>
+#include <render/io/mesh/text_lines.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -11,39 +12,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 namespace render {
 
 namespace {
-
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-
-/// Removes and returns the first word of `rest`; empty at the end.
-std::string_view next_word(std::string_view& rest) {
-  const auto begin = std::find_if_not(rest.begin(), rest.end(), is_blank);
-  const auto end = std::find_if(begin, rest.end(), is_blank);
-  rest = {end, rest.end()};
-  return {begin, end};
-}
-
-/// Calls f(line number, keyword, rest of the line) for every line.
-template <class F> void for_each_line(std::string_view text, const F& f) {
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    line = line.substr(0, line.find('#'));
-    const std::string_view keyword = next_word(line);
-    f(number, keyword, line);
-  }
-}
-
-// Converts all line ends to line feeds.
-std::string with_plain_ends(std::string text) {
-  for (std::size_t i = text.find('\r'); i != text.npos; i = text.find('\r', i + 1))
-    text[i] = text.compare(i, 2, "\r\n") == 0 ? ' ' : '\n';
-  return text;
-}
 
 // Joins lines that end in a backslash with the next line, except in comments. The removed line ends are appended after
 // the joined line, so that later lines keep their numbers.
@@ -100,9 +74,12 @@ using Corner = std::array<std::uint32_t, elements.size()>;
 /// The content of the file.
 struct Lines {
   std::array<std::vector<Vec3d>, elements.size()> values;
-  std::vector<Corner> corners;       ///< corners of all faces
-  std::vector<std::size_t> ends;     ///< end of each face in `corners`
-  std::vector<std::uint32_t> groups; ///< group of each face: each `g` and `usemtl` begins a new group
+  std::vector<Corner> corners;             ///< corners of all faces
+  std::vector<std::size_t> ends;           ///< end of each face in `corners`
+  std::vector<std::uint32_t> groups;       ///< group of each face: each `g` and `usemtl` begins a new group
+  std::vector<std::uint32_t> materials;    ///< material of each face, an index in `names`
+  std::vector<std::string> names = {""};   ///< names of the materials; the first is that of faces above any `usemtl`
+  std::vector<std::string> material_files; ///< names in `mtllib`
   /// First line of a face in which only some corners have this element, or 0. Such an element is ignored for the whole
   /// face.
   std::array<std::size_t, elements.size()> without = {};
@@ -162,13 +139,14 @@ void read_face(std::size_t line, std::string_view rest, const std::array<std::si
 void reserve(std::size_t faces, Lines& lines) {
   constexpr std::size_t corners = 3, bytes_of_vertex = sizeof(Vec3d) + 64; // 64 of a node of the map in mesh_of
   constexpr std::size_t bytes_of_face =
-      corners * (sizeof(Corner) + sizeof(std::uint32_t)) + sizeof(std::size_t) + sizeof(std::uint32_t);
+      corners * (sizeof(Corner) + sizeof(std::uint32_t)) + sizeof(std::size_t) + 2 * sizeof(std::uint32_t);
   const std::size_t vertices = lines.values[position].size();
   mc::require_memory(double(bytes_of_face) * double(faces) + double(bytes_of_vertex) * double(vertices),
                      fmt::format("{} faces of {} vertices", faces, vertices));
   lines.corners.reserve(corners * faces);
   lines.ends.reserve(faces);
   lines.groups.reserve(faces);
+  lines.materials.reserve(faces);
 }
 
 // Reads the faces last, because they may refer to elements below them.
@@ -186,13 +164,22 @@ Lines lines_of(std::string_view text) {
                 lines.values[k].size(), elements[k].keyword);
   reserve(faces, lines);
   std::array<std::size_t, elements.size()> above = {};
-  std::uint32_t group = 0;
+  std::uint32_t group = 0, material = 0;
+  std::map<std::string, std::uint32_t, std::less<>> materials;
+  const auto material_of = [&](std::string_view name) {
+    const auto [known, is_new] = materials.try_emplace(std::string(name), lines.names.size());
+    if (is_new) lines.names.emplace_back(name);
+    return known->second;
+  };
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
     for (std::size_t k = 0; k < elements.size(); ++k) above[k] += keyword == elements[k].keyword;
     if (keyword == "g" || keyword == "usemtl") ++group;
+    if (keyword == "usemtl") material = material_of(rest_of_line(rest));
+    if (keyword == "mtllib") lines.material_files.emplace_back(rest_of_line(rest));
     if (keyword != "f") return;
     read_face(line, rest, above, lines);
     lines.groups.push_back(group);
+    lines.materials.push_back(material);
   });
   return lines;
 }
@@ -231,11 +218,15 @@ MeshFile mesh_of(Lines lines) {
   mesh.triangles.reserve(lines.ends.size());
   std::vector<std::uint32_t> face;
   std::size_t begin = 0;
-  for (const std::size_t end : lines.ends) {
+  const bool has_materials = lines.names.size() > 1;
+  for (std::size_t i = 0; i < lines.ends.size(); ++i) {
     face.clear();
-    for (; begin < end; ++begin) face.push_back(vertex(lines.corners[begin]));
+    for (; begin < lines.ends[i]; ++begin) face.push_back(vertex(lines.corners[begin]));
     append_triangulated(mesh.positions, face, mesh.triangles);
+    if (has_materials) mesh.triangle_materials.resize(mesh.triangles.size(), lines.materials[i]);
   }
+  if (has_materials) mesh.material_names = std::move(lines.names);
+  mesh.material_files = std::move(lines.material_files);
   return mesh;
 }
 
