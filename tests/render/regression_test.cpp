@@ -1,4 +1,5 @@
-// Regression test: the gallery against the small images of tests/refs, which carlo rendered with many independent samples.
+// Regression test: the gallery against the small images of tests/refs, which carlo rendered with many independent
+// samples.
 
 #include <render/io/image/image_io.h>
 #include <render/io/mitsuba/mitsuba.h>

@@ -19,7 +19,7 @@
 
 #include <render/film/confidence_interval.h>
 #include <render/io/image/image_io.h>
-#include <render/io/mesh_scene.h>
+#include <render/io/mesh/mesh_scene.h>
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/io/mitsuba/plugins/reference.h>
 #include <render/layers.h>

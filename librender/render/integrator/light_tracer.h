@@ -210,10 +210,10 @@ bool LightTracer::scatter(const Interaction<Bsdf>& isect, LightSubpath& subpath,
                                       : Spectrum(reverse.at.f_cos(reverse.wi) / next->pdf);
   subpath.beta *= f_cos_over_pdf * Float(cosine / arrival);
   if (is_black(subpath.beta)) return false;
-  const bool hits_light = subpath.edges > 1 || !subpath.from_delta_light;
-  const double pdf_rev2 = !as_near_specular ? pdf_rev_squared<Bsdf>(reverse, subpath)
-                          : hits_light      ? mc::sqr(near_specular_reverse_pdf(isect.wo, wi, next->eta))
-                                            : 0;
+  double pdf_rev2 = 0; // no camera path hits a delta light
+  if (!as_near_specular) pdf_rev2 = pdf_rev_squared<Bsdf>(reverse, subpath);
+  else if (subpath.edges > 1 || !subpath.from_delta_light)
+    pdf_rev2 = mc::sqr(near_specular_reverse_pdf(isect.wo, wi, next->eta));
   subpath.partial_mis.scatter(pdf_rev2, double(pdf), cosine);
   if (subpath.edges >= 4) {
     const Float survival = std::clamp(4 * subpath.beta.maxCoeff() / subpath.initial_beta_max,

@@ -12,7 +12,7 @@ namespace render {
 
 namespace {
 
-double number_in(std::size_t line, std::string_view keyword, std::string_view& rest) {
+double read_number(std::size_t line, std::string_view keyword, std::string_view& rest) {
   const std::string_view word = next_word(rest);
   const std::optional<double> value = mc::parse_double(word);
   mc::require(value && std::isfinite(*value), "line {}: {} needs a finite number, but has '{}'", line, keyword, word);
@@ -20,11 +20,11 @@ double number_in(std::size_t line, std::string_view keyword, std::string_view& r
 }
 
 // Three numbers, or one for all channels.
-Spectrum color_in(std::size_t line, std::string_view keyword, std::string_view rest) {
+Spectrum read_color(std::size_t line, std::string_view keyword, std::string_view rest) {
   std::array<double, 3> rgb = {};
-  rgb[0] = number_in(line, keyword, rest);
+  rgb[0] = read_number(line, keyword, rest);
   const bool is_gray = rest_of_line(rest).empty();
-  for (std::size_t c = 1; c < 3; ++c) rgb[c] = is_gray ? rgb[0] : number_in(line, keyword, rest);
+  for (std::size_t c = 1; c < 3; ++c) rgb[c] = is_gray ? rgb[0] : read_number(line, keyword, rest);
   mc::require(std::min({rgb[0], rgb[1], rgb[2]}) >= 0, "line {}: {} ({}, {}, {}) must be >= 0", line, keyword, rgb[0],
               rgb[1], rgb[2]);
   return {Float(rgb[0]), Float(rgb[1]), Float(rgb[2])};
@@ -32,14 +32,14 @@ Spectrum color_in(std::size_t line, std::string_view keyword, std::string_view r
 
 void read_statement(std::size_t line, std::string_view keyword, std::string_view rest, MtlMaterial& material) {
   const auto number = [&](double least, double most, const char* range) {
-    const double value = number_in(line, keyword, rest);
+    const double value = read_number(line, keyword, rest);
     mc::require(value >= least && value <= most, "line {}: {} {} must {}", line, keyword, value, range);
     return value;
   };
   const double infinity = mc::infinity<double>;
-  if (keyword == "Kd") material.Kd = color_in(line, keyword, rest);
-  else if (keyword == "Ks") material.Ks = color_in(line, keyword, rest);
-  else if (keyword == "Ke") material.Ke = color_in(line, keyword, rest);
+  if (keyword == "Kd") material.Kd = read_color(line, keyword, rest);
+  else if (keyword == "Ks") material.Ks = read_color(line, keyword, rest);
+  else if (keyword == "Ke") material.Ke = read_color(line, keyword, rest);
   else if (keyword == "Ns") material.Ns = number(0, infinity, "be >= 0");
   else if (keyword == "Ni") material.Ni = number(std::numeric_limits<double>::min(), infinity, "be > 0");
   else if (keyword == "d") material.d = number(0, 1, "lie in [0, 1]");

@@ -108,20 +108,21 @@ class Reader {
     if (!context_.is_referenced(e)) context_.warn(e, "no <ref> in a <shape> names its id, so it does not shine");
   }
 
-  // Reads a plugin that a <ref> may reference, so that its errors are reported in any case.
+  // Reads a plugin that a <ref> may reference, so that its errors are reported in any case. The id is required: nothing
+  // could reference the plugin without it.
   template <class T> void named(const XmlElement& e, const Plugins<T>& rows) {
-    e.attribute("id");
     read_plugin(rows, e, context_);
+    e.attribute("id");
   }
 
   void named_bsdf(const XmlElement& e) {
-    e.attribute("id"); // an id is required: nothing could refer to the BSDF without it
     context_.bsdf(e);
+    e.attribute("id");
   }
 
   void named_texture(const XmlElement& e) {
-    e.attribute("id");
     context_.texture(e);
+    e.attribute("id");
   }
 
   void shape(const XmlElement& e) {

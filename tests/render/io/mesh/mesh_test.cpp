@@ -1,5 +1,5 @@
 #include <render/io/mesh/mesh.h>
-#include <render/io/mesh_scene.h>
+#include <render/io/mesh/mesh_scene.h>
 
 #include <mc/core/file.h>
 #include <mc/random/pcg.h>

@@ -310,8 +310,9 @@ TEST_F(PluginsTest, AnisotropicFacetsAreRefused) {
 TEST_F(PluginsTest, RoughnessMayBeATexture) {
   const auto at = [&](const std::string& type, const std::string& name, double color, const char* dialect, double x) {
     const std::string text = fmt::format(
-        R"({}<shape type="rectangle"><bsdf type="{}"><texture type="checkerboard" name="{}"><float name="vscale" value="0"/>
-           <rgb name="color0" value="{}"/><rgb name="color1" value="0.1"/></texture></bsdf></shape>)",
+        R"({}<shape type="rectangle"><bsdf type="{}"><texture type="checkerboard" name="{}">
+           <float name="vscale" value="0"/><rgb name="color0" value="{}"/><rgb name="color1" value="0.1"/></texture>
+           </bsdf></shape>)",
         sensor, type, name, color);
     const render::Scene read = render::read_mitsuba(scene(text), render::dialect_from(dialect)).scene;
     const render::Ray ray{render::Vec3(render::Float(x), 0, 1), render::Vec3(0, 0, -1)};

@@ -265,11 +265,22 @@ Parameter<std::optional<std::string>> metal() {
   const Parameter<std::string> p{{"material", "none or a metal", "", {"string"}, meaning}, metal_of, {}, {}};
   return optional(p).with_default(std::nullopt, "Cu, or eta and k");
 }
+// Converters clip no colours outside the gamut. The Fresnel equations depend on the squares of eta and k.
+Parameter<std::optional<Spectrum>> optical_constant(const std::string& name, const std::string& meaning) {
+  Parameter<Spectrum> p = color(name, "", meaning);
+  p.parse = [p](const XmlElement& e, Context& context) {
+    const Spectrum value = p.parse(e, context);
+    if ((value < 0).any())
+      context.warn(e, "a negative value has no physical meaning; its sign is ignored, as in Mitsuba");
+    return Spectrum(value.abs());
+  };
+  return optional(p);
+}
 Parameter<std::optional<Spectrum>> eta_of_metal() {
-  return optional(color("eta", "", "index of refraction, >= 0, instead of material"));
+  return optical_constant("eta", "index of refraction, >= 0, instead of material");
 }
 Parameter<std::optional<Spectrum>> k_of_metal() {
-  return optional(color("k", "", "extinction coefficient, >= 0; not 0 where eta is"));
+  return optical_constant("k", "extinction coefficient, >= 0; not 0 where eta is");
 }
 
 Parameter<std::optional<FacetShape>> distribution(const std::vector<std::string>& names) {

@@ -148,6 +148,7 @@ Plugin<FilmSettings> film_plugin(std::string name) {
   for (const char* other : {"fileFormat", "componentFormat", "attachLog", "filename"})
     ignored.push_back(no_effect(other, "the command line says what is written"));
   ignored.push_back(no_effect("banner", "none is drawn into the picture"));
+  ignored.push_back(no_effect("highQualityEdges", "pixels at the edges always get the light of their whole filter"));
   return plugin<FilmSettings>(
              std::move(name), "the size of the picture and its filter", make_film,
              integer("width", "pixels in a row", 768).with_lajolla_default(256, "256"),

@@ -1,4 +1,4 @@
-#include <render/io/mesh_scene.h>
+#include <render/io/mesh/mesh_scene.h>
 
 #include <render/io/image/image_io.h>
 #include <render/io/mesh/mesh.h>
