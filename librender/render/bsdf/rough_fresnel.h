@@ -19,8 +19,8 @@ using CoatFacets = std::variant<std::monostate, TrowbridgeReitzFacets, BeckmannF
 /// transmits. Light that would hit a second facet is lost, so the sum is at most 1.
 ///   eval : interpolates a table linearly in the cosine. Error of `transmitted`: .002 for eta in [1.01, 3] and .02 for
 ///          eta < 1, where it has a steep slope at the critical angle. Error of `reflected` in these ranges: .02 and
-///          .07. It only controls sampling. Interpolation between roughnesses adds .02 to each, at grazing angles or near
-///          the critical angle.
+///          .07. It only controls sampling. Interpolation between roughnesses adds .02 to each, at grazing angles or
+///          near the critical angle.
 ///   mean_transmitted : transmitted share of uniform light, 2 int T cos dcos; exact for the interpolated table.
 ///   Source : facets of [WalterEtAl07], integrated as in Mitsuba 0.6's roughplastic.
 class RoughFresnel {

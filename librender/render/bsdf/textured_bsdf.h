@@ -39,8 +39,8 @@ struct BsdfTextures {
   bool empty() const { return !diffuse_reflectance && !specular_reflectance && !specular_transmittance && !alpha; }
 };
 
-/// A BSDF with parameters from textures. A BSDF whose parameter NAME a texture may replace has a member set_NAME(value);
-/// if set_alpha() needs tables, also prepare_alpha(), which computes them.
+/// A BSDF with parameters from textures. If a texture may replace the parameter NAME of a BSDF, this has a member
+/// set_NAME(value). If its set_alpha() needs tables, it also has prepare_alpha(), which computes them.
 ///   throws : Error unless the BSDF has the parameters and the textures lie in [0, 1].
 class TexturedBsdf {
  public:
