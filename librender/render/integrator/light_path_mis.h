@@ -91,8 +91,7 @@ class LightPathMis {
   // Squared density with which a light path that arrives at `isect` from wi scatters back along the camera path.
   template <class B> static double pdf_rev_squared(int edges, const ShadingPoint<B>& isect, const Vec3& wi) {
     if (edges == 1) return 1; // at the first vertex light paths connect to the camera
-    const auto reverse = isect.reverse(wi);
-    return mc::sqr(double(reverse.at.pdf(reverse.wi)));
+    return mc::sqr(double(isect.reverse_pdf(wi)));
   }
 
   const LightTracer* light_tracer_;

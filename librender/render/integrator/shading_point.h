@@ -12,8 +12,8 @@ namespace render {
 
 /// Local frame of a surface point that is seen from a direction, with the shading normal as z.
 ///   Bent normals : a coarse mesh with smooth normals shows triangles whose shading normal faces away. Such a normal is
-///                  bent toward the viewer until their cosine is `least_cosine`. The viewer is thus on the same side
-///                  of both normals.
+///                  bent toward the viewer until their cosine is about `least_cosine`. The viewer is thus on the same
+///                  side of both normals.
 class ShadingFrame {
  public:
   /// Smallest cosine of viewer and shading normal, on the side of the viewer.
@@ -95,16 +95,12 @@ template <class B> struct ShadingPoint {
 
   /// BSDF times |cos wi|, delta lobes excluded.
   Spectrum f_cos(const Vec3& wi) const {
-    Spectrum sum = Spectrum::Zero();
-    for (const Vec3& w : origins(wi)) sum += bsdf.eval(wo, w) * std::abs(w.z());
-    return sum;
+    return frame.is_flat() ? Spectrum(bsdf.eval(wo, wi) * std::abs(wi.z())) : mirrored_f_cos(wi);
   }
   /// Density of wi [1/sr], delta lobes excluded.
-  Float pdf(const Vec3& wi) const {
-    Float sum = 0;
-    for (const Vec3& w : origins(wi)) sum += bsdf.pdf(wo, w);
-    return sum;
-  }
+  Float pdf(const Vec3& wi) const { return frame.is_flat() ? bsdf.pdf(wo, wi) : mirrored_pdf(wi); }
+  /// Density [1/sr] of wo for a path that arrives from wi; see reverse().
+  Float reverse_pdf(const Vec3& wi) const { return frame.is_flat() ? bsdf.pdf(wi, wo) : mirrored_reverse_pdf(wi); }
   /// Index of refraction on the side of wi over the index on the side of wo, delta lobes excluded.
   Float eta(const Vec3& wi) const {
     Float ratio = 1;
@@ -115,18 +111,8 @@ template <class B> struct ShadingPoint {
   std::optional<ShadingSample> sample(Float uc, const Vec2& u) const {
     const auto s = bsdf.sample(wo, uc, u);
     if (!s) return {};
-    ShadingSample sampled{s->wi, s->f * std::abs(s->wi.z()), s->pdf, s->delta, s->eta, !frame.is_bent()};
-    if (frame.is_flat()) [[likely]]
-      return sampled;
-    if (frame.same_side(wo, s->wi) != is_reflection(s->wi)) {
-      sampled.wi = frame.mirror(s->wi);
-      sampled.reversible = false;
-    }
-    if (!s->delta && origins(sampled.wi).count == 2) {
-      sampled.f_cos = f_cos(sampled.wi);
-      sampled.pdf = pdf(sampled.wi);
-    }
-    return sampled;
+    const ShadingSample sampled{s->wi, s->f * std::abs(s->wi.z()), s->pdf, s->delta, s->eta, !frame.is_bent()};
+    return frame.is_flat() ? sampled : mirrored(sampled);
   }
 
  private:
@@ -138,8 +124,7 @@ template <class B> struct ShadingPoint {
     const Vec3* end() const { return directions.data() + count; }
   };
   Origins origins(const Vec3& wi) const {
-    if (frame.is_flat()) [[likely]]
-      return {{wi}, 1};
+    if (frame.is_flat()) return {{wi}, 1};
     Origins found{{}, 0};
     const bool reflects = frame.same_side(wo, wi);
     for (const Vec3& w : {wi, frame.mirror(wi)})
@@ -148,6 +133,33 @@ template <class B> struct ShadingPoint {
   }
   // Whether the BSDF reflects light from w.
   bool is_reflection(const Vec3& w) const { return wo.z() * w.z() > 0; }
+
+  // For different normals. Calls, so that code for equal normals stays small.
+  [[gnu::noinline]] Spectrum mirrored_f_cos(const Vec3& wi) const {
+    Spectrum sum = Spectrum::Zero();
+    for (const Vec3& w : origins(wi)) sum += bsdf.eval(wo, w) * std::abs(w.z());
+    return sum;
+  }
+  [[gnu::noinline]] Float mirrored_pdf(const Vec3& wi) const {
+    Float sum = 0;
+    for (const Vec3& w : origins(wi)) sum += bsdf.pdf(wo, w);
+    return sum;
+  }
+  [[gnu::noinline]] Float mirrored_reverse_pdf(const Vec3& wi) const {
+    const Reverse other = reverse(wi);
+    return other.at.pdf(other.wi);
+  }
+  [[gnu::noinline]] ShadingSample mirrored(ShadingSample sampled) const {
+    if (frame.same_side(wo, sampled.wi) != is_reflection(sampled.wi)) {
+      sampled.wi = frame.mirror(sampled.wi);
+      sampled.reversible = false;
+    }
+    if (!sampled.delta && origins(sampled.wi).count == 2) {
+      sampled.f_cos = mirrored_f_cos(sampled.wi);
+      sampled.pdf = mirrored_pdf(sampled.wi);
+    }
+    return sampled;
+  }
 };
 
 /// A vertex with exchanged directions.
