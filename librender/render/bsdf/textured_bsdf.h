@@ -6,7 +6,7 @@
 
 namespace render {
 
-/// Roughness of facets from a texture: the mean of its channels, within the range of checked_alpha().
+/// Roughness alpha of facets from a texture: the mean of its channels or the square of it, raised to `least_alpha`.
 ///   throws : Error unless the texture lies in [0, 1].
 class RoughnessTexture {
  public:
@@ -18,7 +18,7 @@ class RoughnessTexture {
   Float at(const Vec2d& uv, Float footprint = 0) const { return alpha(texture_.eval(uv, footprint).mean()); }
   /// See Texture.
   bool is_filtered() const { return texture_.is_filtered(); }
-  /// Smallest roughness alpha anywhere.
+  /// A lower bound of alpha: the roughness of the smallest value of any channel.
   Float least() const { return alpha(texture_.least()); }
 
  private:
@@ -47,7 +47,7 @@ class TexturedBsdf {
   /// The BSDF `untextured` with these textures.
   TexturedBsdf(Bsdf untextured, BsdfTextures textures);
 
-  /// The BSDF without textures, with the smallest roughness of the surface.
+  /// The BSDF with its own colours and, if there is a texture of roughness, its lower bound.
   const Bsdf& untextured() const { return untextured_; }
   /// Whether some texture depends on the footprint.
   bool is_filtered() const { return is_filtered_; }

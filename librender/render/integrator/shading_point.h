@@ -12,8 +12,8 @@ namespace render {
 
 /// Local frame of a surface point that is seen from a direction, with the shading normal as z.
 ///   Bent normals : a coarse mesh with smooth normals shows triangles whose shading normal faces away. Such a normal is
-///                  bent toward the viewer until their cosine is about `least_cosine`. The viewer is thus on the same
-///                  side of both normals.
+///                  bent until the viewer is just above the horizon of the shading normal, or just below it for a
+///                  viewer behind the surface: on the same side as of the geometric normal.
 class ShadingFrame {
  public:
   /// Smallest cosine of viewer and shading normal, on the side of the viewer.
@@ -43,7 +43,7 @@ class ShadingFrame {
   /// World coordinates of a vector.
   Vec3 to_world(const Vec3& w) const { return frame_.to_world(w); }
 
-  /// Whether the geometric normal is the z axis.
+  /// Whether both normals are equal, as on all shapes but smooth meshes.
   bool is_flat() const { return is_flat_; }
   /// Whether the shading normal is bent.
   bool is_bent() const { return is_bent_; }
@@ -51,7 +51,7 @@ class ShadingFrame {
   bool same_side(const Vec3& a, const Vec3& b) const {
     return is_flat_ ? a.z() * b.z() > 0 : (a.dot(ng_) > 0) == (b.dot(ng_) > 0);
   }
-  /// Mirror image of a local direction behind the surface.
+  /// Mirror image of a local direction at the surface.
   Vec3 mirror(const Vec3& w) const { return w - 2 * w.dot(ng_) * ng_; }
 
  private:
@@ -62,19 +62,21 @@ class ShadingFrame {
 
 /// A sampled direction of a ShadingPoint; see BsdfSample.
 struct ShadingSample {
-  Vec3 wi;         ///< Direction in the local frame.
-  Spectrum f_cos;  ///< BSDF times |cos|.
-  Float pdf;       ///< Density [1/sr], or the probability of a delta lobe.
-  bool delta;      ///< Whether a delta lobe was sampled.
-  Float eta;       ///< Index ratio.
-  bool reversible; ///< Whether a delta lobe scatters from wi to wo, too: the frame is not bent, and wi not mirrored.
+  Vec3 wi;        ///< Direction in the local frame.
+  Spectrum f_cos; ///< BSDF times |cos|.
+  Float pdf;      ///< Density [1/sr], or the probability of a delta lobe.
+  bool delta;     ///< Whether a delta lobe was sampled.
+  Float eta;      ///< Index ratio.
+  /// Whether a delta or near-specular lobe scatters from wi to wo, too: neither of them bends the normal, and wi is not
+  /// mirrored.
+  bool reversible;
 };
 
 /// A path vertex with a BSDF of type B. Directions are in the frame.
 ///   Shading normals : reflection that a BSDF directs below the surface, and transmission that it directs above it, is
-///                     mirrored at the geometric normal. The surface then scatters as much light as its BSDF and passes
-///                     none through: f_cos is the sum over the two directions that end in wi, and so is the density.
-///                     Reciprocity is lost, as with all shading normals [Veach97, section 5.3]. See
+///                     mirrored at the geometric normal. For each wo the surface then has the albedo of its BSDF, and
+///                     an opaque one passes no light: f_cos is the sum over the directions that end in wi, and so is
+///                     the density. Reciprocity is lost, as with all shading normals [Veach97, section 5.3]. See
 ///                     docs/methods/path-tracing.md.
 template <class B> struct ShadingPoint {
   /// BSDF at the vertex.
@@ -150,6 +152,7 @@ template <class B> struct ShadingPoint {
     return other.at.pdf(other.wi);
   }
   [[gnu::noinline]] ShadingSample mirrored(ShadingSample sampled) const {
+    sampled.reversible = sampled.reversible && !ShadingFrame::faces_away(point, frame.to_world(sampled.wi));
     if (frame.same_side(wo, sampled.wi) != is_reflection(sampled.wi)) {
       sampled.wi = frame.mirror(sampled.wi);
       sampled.reversible = false;

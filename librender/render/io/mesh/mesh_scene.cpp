@@ -86,7 +86,7 @@ class Materials {
     const MtlMaterial& mtl = known->second;
     const bool emits = mtl.Ke && !is_black(*mtl.Ke);
     Material material = material_of(mtl, triangles);
-    if (mtl.d < 1 && !mtl.is_glass() && !emits) material.mask = std::make_shared<const Mask>(Float(mtl.d));
+    if (mtl.d < 1 && !refracts(mtl) && !emits) material.mask = std::make_shared<const Mask>(Float(mtl.d));
     SceneBuilder::SurfaceProperties properties{.bsdf = builder.add(std::move(material))};
     if (emits) properties.emission = Emission{*mtl.Ke};
     builder.add(std::move(shape), properties);
@@ -100,7 +100,7 @@ class Materials {
  private:
   // Glass, diffuse, or diffuse under a coat whose highlight is about as wide as that of the exponent Ns [WalterEtAl07].
   Material material_of(const MtlMaterial& mtl, const MeshFile& triangles) {
-    if (mtl.is_glass() && std::abs(mtl.Ni - 1) >= 1e-4) return Bsdf(Dielectric(Float(mtl.Ni)));
+    if (refracts(mtl)) return Bsdf(Dielectric(Float(mtl.Ni)));
     const Spectrum diffuse = mtl.Kd.value_or(grey).min(Float(1));
     const Spectrum specular = mtl.Ks.value_or(Spectrum::Zero()).min(Float(1));
     const auto alpha = Float(std::clamp(std::sqrt(2 / (mtl.Ns + 2)), double(least_alpha), 1.0));
@@ -118,6 +118,7 @@ class Materials {
     const auto texels = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels), *path);
     return TexturedBsdf(bsdf, {.diffuse_reflectance = Bitmap(texels)});
   }
+  static bool refracts(const MtlMaterial& mtl) { return mtl.is_glass() && std::abs(mtl.Ni - 1) >= 1e-4; }
   // The path of a file that a statement names.
   std::optional<std::string> existing(std::string name, const char* statement) {
     std::replace(name.begin(), name.end(), '\\', '/');

@@ -97,8 +97,9 @@ TEST_F(MeshScene, RefusesWhatCannotBeSeen) {
 
 // Five triangles of five materials, and one without.
 TEST_F(MeshScene, ObjHasItsMaterials) {
-  write("my colours.mtl", "newmtl red\nKd 0.8 0.1 0.1\nnewmtl coat\nKd 0.2 0.2 0.2\nKs 1 1 1\nNs 98\n"
-                          "newmtl glass\nillum 7\nNi 1.3\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\nnewmtl veil\nd 0.25\n");
+  write("my colours.mtl",
+        "newmtl red\nKd 0.8 0.1 0.1\nnewmtl coat\nKd 0.2 0.2 0.2\nKs 1 1 1\nNs 98\n"
+        "newmtl glass\nillum 7\nNi 1.3\nnewmtl lamp\nKd 0 0 0\nKe 3 2 1\nnewmtl veil\nillum 4\nNi 1\nd 0.25\n");
   std::string text = "mtllib my colours.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
   for (const char* name : {"red", "coat", "glass", "lamp", "veil", "red"})
     text += fmt::format("usemtl {}\nf 1 2 4\n", name);
