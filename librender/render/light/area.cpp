@@ -13,9 +13,10 @@ AreaLight::AreaLight(std::shared_ptr<const Shape> shape, const Emission& emissio
               texture_->least());
   constexpr int n = 64;
   Spectrum sum = Spectrum::Zero();
-  for (int i = 0; i < n * n; ++i)
-    if (const auto point = shape_->sample_area({(Float(i % n) + Float(0.5)) / n, (Float(i / n) + Float(0.5)) / n}))
-      sum += radiance_at(*point);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (const auto point = shape_->sample_area({(Float(i) + Float(0.5)) / n, (Float(j) + Float(0.5)) / n}))
+        sum += radiance_at(*point);
   mean_radiance_ = sum / Float(n * n);
 }
 

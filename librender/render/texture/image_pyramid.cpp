@@ -20,6 +20,7 @@ struct Cover {
 
 std::vector<Cover> covers(int n, int smaller) {
   std::vector<Cover> all;
+  all.reserve(static_cast<std::size_t>(smaller));
   for (int i = 0; i < smaller; ++i) all.emplace_back(i, n, smaller);
   return all;
 }

@@ -59,7 +59,8 @@ TEST(AreaLight, TextureVariesTheRadiance) {
     int lit = 0;
     constexpr int n = 40;
     for (int i = 0; i < n * n; ++i) {
-      const Vec2 u((Float(i % n) + Float(0.5)) / n, (Float(i / n) + Float(0.5)) / n);
+      const int row = i / n, column = i % n;
+      const Vec2 u((Float(column) + Float(0.5)) / n, (Float(row) + Float(0.5)) / n);
       const Vec3 ref(Float(0.3), Float(0.2), 4);
       const auto s = light.sample(ref, u);
       ASSERT_TRUE(s && s->point);
