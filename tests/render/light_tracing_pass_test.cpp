@@ -59,9 +59,10 @@ PassResult run_pass(const Filter& filter, std::uint64_t steps, int threads, Pixe
   const std::uint64_t n = pass.path_count(spp);
   EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 8);
   for (std::uint64_t i = 0; i < steps; ++i) add_paths(pass, i * n / steps, (i + 1) * n / steps, threads, all);
+  const auto samples_of_set = spp / 4;
   for (int y = 0; y < part.height; ++y) // every pixel needs samples to have an estimate
     for (int x = 0; x < part.width; ++x)
-      for (int set = 0; set < 4; ++set) all.film.add(x, y, set, Eigen::Array3d::Zero(), spp / 4);
+      for (int set = 0; set < 4; ++set) all.film.add(x, y, set, Eigen::Array3d::Zero(), samples_of_set);
   return all;
 }
 

@@ -250,7 +250,7 @@ TEST(ParticipatingMedia, DefaultRenderAgreesWithPlainSamples) {
       double difference = 0, variance = 0;
       for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
-          const auto pixel = static_cast<std::size_t>((y + j) * 16 + x + i);
+          const std::size_t pixel = fast.index(x + i, y + j);
           difference += double(fast.pixels[pixel].sum() - plain.pixels[pixel].sum());
           variance += 3 * (fast.noise_area * double(fast.variance[pixel].sum()) +
                            plain.noise_area * double(plain.variance[pixel].sum()));
