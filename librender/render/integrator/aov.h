@@ -35,9 +35,10 @@ template <class SceneType> class AovIntegrator {
     if (!hit) return Spectrum::Ones();
     const SurfacePoint point = scene_.surface(*hit).shape->surface_point(ray, *hit);
     const Lambert matte;
-    const auto s = ShadingPoint<Lambert>(matte, point, -ray.d).sample(0, stream.next2());
-    if (!s) return Spectrum::Ones();
-    Ray shadow = point.spawn_ray(ShadingFrame(point, -ray.d).to_world(s->wi));
+    const ShadingPoint at(matte, point, -ray.d);
+    const auto s = at.sample(0, stream.next2());
+    if (!s) return Spectrum::Zero();
+    Ray shadow = point.spawn_ray(at.frame.to_world(s->wi));
     shadow.t_max = Float(aov_.max_distance);
     return Spectrum::Constant(shadow_transmittance(scene_, shadow, {}, rays));
   }

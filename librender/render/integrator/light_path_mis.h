@@ -81,10 +81,9 @@ class LightPathMis {
     scatter(partial_mis, edges, isect, {.d = d, .weight = {}, .pdf = pdf, .eta = 1, .guiding_pdf_ratio = 1});
     const Vec3 way = next.p - isect.point.p;
     partial_mis.add_vertex(std::abs(double(next.ng.dot(d))), way.cast<double>().squaredNorm());
-    // density of the diffuse lobe, which is mirrored at the geometric normal
-    const double direct = std::abs(double(next.ns.dot(d)));
-    const double mirrored = direct - 2 * std::abs(double(next.ng.dot(d))) * double(next.ng.dot(next.ns));
-    return partial_mis.squared_ratio(mc::sqr(direct + std::max(mirrored, 0.0)));
+    const Lambert matte; // its density of -d is the same for all directions from which light arrives
+    const ShadingPoint at(matte, next, -d);
+    return partial_mis.squared_ratio(mc::sqr(double(at.pdf(at.wo))));
   }
 
  private:

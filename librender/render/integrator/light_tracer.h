@@ -94,8 +94,7 @@ class LightTracer {
   // near-specular. At the first vertex the squared density of next-event estimation is added, and hits count 0 for a
   // delta light.
   //   camera : the vertex as the camera path sees it.
-  template <class B>
-  double pdf_rev_squared(const typename ShadingPoint<B>::Reverse& camera, const LightSubpath& subpath) const {
+  double pdf_rev_squared(const ShadingPoint<Bsdf>::Reverse& camera, const LightSubpath& subpath) const {
     const bool first = subpath.edges == 1;
     const double scatters = first && subpath.from_delta_light
                                 ? 0
@@ -178,8 +177,8 @@ void LightTracer::connect_to_camera(const Interaction<Bsdf>& isect, const LightS
   if (is_black(arriving)) return;
   const double from_camera = double(seen->direction_pdf) * std::abs(double(isect.point.ng.dot(seen->wi))) /
                              mc::sqr(camera.spread(double(seen->distance)));
-  const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared<Bsdf>(reverse, subpath)) *
-                           mc::sqr(from_camera / light_path_rate_);
+  const double mis_ratio =
+      subpath.partial_mis.squared_ratio(pdf_rev_squared(reverse, subpath)) * mc::sqr(from_camera / light_path_rate_);
   const double arrival = std::abs(double(isect.point.ng.dot(subpath.ray.d)));
   add_splat(seen->s,
             Spectrum(arriving * f_cos *
@@ -211,7 +210,7 @@ bool LightTracer::scatter(const Interaction<Bsdf>& isect, LightSubpath& subpath,
   subpath.beta *= f_cos_over_pdf * Float(cosine / arrival);
   if (is_black(subpath.beta)) return false;
   double pdf_rev2 = 0; // no camera path hits a delta light
-  if (!as_near_specular) pdf_rev2 = pdf_rev_squared<Bsdf>(reverse, subpath);
+  if (!as_near_specular) pdf_rev2 = pdf_rev_squared(reverse, subpath);
   else if (subpath.edges > 1 || !subpath.from_delta_light)
     pdf_rev2 = mc::sqr(near_specular_reverse_pdf(isect.wo, wi, next->eta));
   subpath.partial_mis.scatter(pdf_rev2, double(pdf), cosine);

@@ -125,26 +125,32 @@ TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat
   return mesh;
 }
 
-MeshFile part_of(const MeshFile& file, std::uint32_t material) {
+std::vector<MeshFile> parts_of(const MeshFile& file) {
+  std::vector<std::vector<std::size_t>> triangles(file.material_names.size());
+  for (std::size_t t = 0; t < file.triangle_materials.size(); ++t) triangles[file.triangle_materials[t]].push_back(t);
+  std::vector<MeshFile> parts(triangles.size());
   constexpr std::uint32_t unused = 0xffffffff;
-  std::vector<std::uint32_t> places(file.positions.size(), unused);
-  MeshFile part;
-  part.missing_uv_reason = file.missing_uv_reason;
-  const auto place_of = [&](std::uint32_t i) {
-    if (places[i] != unused) return places[i];
-    places[i] = static_cast<std::uint32_t>(part.positions.size());
-    part.positions.push_back(file.positions[i]);
-    if (!file.normals.empty()) part.normals.push_back(file.normals[i]);
-    if (!file.uvs.empty()) part.uvs.push_back(file.uvs[i]);
-    return places[i];
-  };
-  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
-    if (file.triangle_materials[t] != material) continue;
-    const auto& [i, j, k] = file.triangles[t];
-    const std::uint32_t a = place_of(i), b = place_of(j), c = place_of(k);
-    part.triangles.push_back({a, b, c});
+  std::vector<std::uint32_t> places(file.positions.size(), unused), used;
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    MeshFile& part = parts[m];
+    part.missing_uv_reason = file.missing_uv_reason;
+    const auto place_of = [&](std::uint32_t i) {
+      if (places[i] != unused) return places[i];
+      places[i] = static_cast<std::uint32_t>(part.positions.size());
+      used.push_back(i);
+      part.positions.push_back(file.positions[i]);
+      if (!file.normals.empty()) part.normals.push_back(file.normals[i]);
+      if (!file.uvs.empty()) part.uvs.push_back(file.uvs[i]);
+      return places[i];
+    };
+    for (const std::size_t t : triangles[m]) {
+      const auto& [i, j, k] = file.triangles[t];
+      part.triangles.push_back({place_of(i), place_of(j), place_of(k)});
+    }
+    for (const std::uint32_t i : used) places[i] = unused;
+    used.clear();
   }
-  return part;
+  return parts;
 }
 
 } // namespace render

@@ -43,8 +43,8 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
 /// Throws Error for the first vertex or normal that is not finite, or the first triangle with an invalid vertex index.
 void require_valid_mesh(const MeshFile& file);
 
-/// The triangles of one material, with their vertices.
-MeshFile part_of(const MeshFile& file, std::uint32_t material);
+/// The triangles of each material with their vertices, in the order of material_names.
+std::vector<MeshFile> parts_of(const MeshFile& file);
 
 /// Reads all faces of a Wavefront OBJ file as one mesh and splits polygons into triangles. If some
 /// faces have normals, the others are flat. If none has, vertices are not shared across groups and materials. Texture

@@ -114,9 +114,12 @@ class Materials {
     }
     const auto path = existing(mtl.map_Kd, "map_Kd");
     if (!path) return bsdf;
-    Image image = read_image(*path);
-    const auto texels = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels), *path);
-    return TexturedBsdf(bsdf, {.diffuse_reflectance = Bitmap(texels)});
+    std::shared_ptr<const Texels>& picture = pictures_[*path];
+    if (!picture) {
+      Image image = read_image(*path);
+      picture = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels), *path);
+    }
+    return TexturedBsdf(bsdf, {.diffuse_reflectance = Bitmap(picture)});
   }
   static bool refracts(const MtlMaterial& mtl) { return mtl.is_glass() && std::abs(mtl.Ni - 1) >= 1e-4; }
   // The path of a file that a statement names.
@@ -134,6 +137,7 @@ class Materials {
   std::string path_;
   std::filesystem::path folder_;
   std::map<std::string, MtlMaterial, std::less<>> materials_;
+  std::map<std::string, std::shared_ptr<const Texels>> pictures_; ///< by path: materials share them
   std::set<std::string> files_;
   std::vector<std::string> warnings_;
 };
@@ -167,10 +171,9 @@ SceneFile read_mesh_scene(const std::string& path) {
     };
     Materials materials(path, mesh);
     if (mesh.triangle_materials.empty()) builder.add(shape_of(mesh), {builder.add(Lambert(grey))});
-    for (std::uint32_t i = 0; i < mesh.material_names.size(); ++i) {
-      const MeshFile part = part_of(mesh, i);
-      if (has_area(part)) materials.add(mesh.material_names[i], part, shape_of(part), builder);
-    }
+    const std::vector<MeshFile> parts = parts_of(mesh);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      if (has_area(parts[i])) materials.add(mesh.material_names[i], parts[i], shape_of(parts[i]), builder);
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));

@@ -136,29 +136,9 @@ Parameter<Spectrum> reflectance(const std::string& name, const std::string& mean
   return p;
 }
 
-Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning) {
-  const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
-    if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
-    return color_of(e, context.extrapolation());
-  };
-  return {{name, "colour or texture", unit, {"rgb", "srgb", "spectrum", "float", "texture", "ref"}, meaning},
-          parse,
-          {},
-          {}};
-}
-
 Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
                                               const Spectrum& fallback) {
-  const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
-    if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
-    return reflectance_of(e, context.illuminant(), context.extrapolation());
-  };
-  const Parameter<Reflectance> p{
-      {name, "colour or texture", share_of_light, {"rgb", "srgb", "spectrum", "float", "texture", "ref"}, meaning},
-      parse,
-      {},
-      {}};
-  return p.with_default(fallback, text_of(fallback));
+  return or_texture(reflectance(name, meaning, fallback));
 }
 
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning) {

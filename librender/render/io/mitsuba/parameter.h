@@ -114,10 +114,21 @@ Parameter<Spectrum> color(const std::string& name, const std::string& unit, cons
                           const Spectrum& fallback);
 /// A reflectance or transmittance in [0, 1].
 Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback);
+/// The parameter, or a texture in its place.
+template <class T> Parameter<std::variant<T, Texture>> or_texture(const Parameter<T>& p) {
+  Parameter<std::variant<T, Texture>> either{p.declared, {}, {}, {}};
+  either.declared.type += " or texture";
+  either.declared.tags.insert(either.declared.tags.end(), {"texture", "ref"});
+  either.parse = [parse = p.parse](const XmlElement& e, Context& context) -> std::variant<T, Texture> {
+    if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
+    return parse(e, context);
+  };
+  if (p.fallback) either.fallback = *p.fallback;
+  if (p.lajolla_fallback) either.lajolla_fallback = *p.lajolla_fallback;
+  return either;
+}
 /// A constant colour or a texture.
 using Reflectance = std::variant<Spectrum, Texture>;
-/// A colour, constant or from a texture.
-Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning);
 /// A reflectance in [0, 1], constant or from a texture.
 Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
                                               const Spectrum& fallback);

@@ -80,7 +80,7 @@ Slope isotropic(const Slope& slope, const std::optional<double>& u, const std::o
   return {*u, true};
 }
 
-/// Roughness of facets: a number, or a texture and its smallest value.
+/// Roughness of facets: a number, or a texture and its lower bound.
 struct Roughness {
   double alpha; ///< 0: smooth.
   std::optional<RoughnessTexture> texture = {};
@@ -218,20 +218,13 @@ Parameter<Material> inner_bsdf(std::string meaning) {
           {}};
 }
 
-NumberOrTexture number_or_texture_of(const XmlElement& e, Context& context) {
-  if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
-  return number_of(e);
-}
-
-Declaration number_or_texture(const std::string& name, const std::string& meaning) {
-  return {name, "number or texture", "", {"float", "integer", "texture", "ref"}, meaning};
-}
-
 Parameter<Slope> slope() {
-  return {number_or_texture("alpha", "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]; "
-                                     "of a texture the channels' mean, at least 0.0001"),
-          [](const XmlElement& e, Context& context) {
-            return Slope{number_or_texture_of(e, context), true};
+  const auto alpha = or_texture(number("alpha", "",
+                                       "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]; "
+                                       "of a texture the channels' mean, at least 0.0001"));
+  return {alpha.declared,
+          [alpha](const XmlElement& e, Context& context) {
+            return Slope{alpha.parse(e, context), true};
           },
           {},
           {}};
@@ -247,9 +240,8 @@ Parameter<std::optional<double>> slope_along(const std::string& name, const std:
       number(name, "", "alpha along " + axis + "; anisotropic facets are not supported, so only equal ones"));
 }
 Parameter<std::optional<NumberOrTexture>> roughness() {
-  const Parameter<NumberOrTexture> p{
-      number_or_texture("roughness", "the root of alpha, in [0, 1], instead of it"), number_or_texture_of, {}, {}};
-  return optional(p).lajolla_only("alpha, its square");
+  return optional(or_texture(number("roughness", "", "the root of alpha, in [0, 1], instead of it")))
+      .lajolla_only("alpha, its square");
 }
 
 std::string metal_of(const XmlElement& e, Context&) {

@@ -48,7 +48,7 @@ const Plugins<Emission>& surface_emitter_plugins() {
           "area",
           "the same radiance in every direction, from the side that the shape's normal points to; a lamp "
           "in the plane of another surface, as of a ceiling, is seen or hidden by rounding: keep them apart",
-          make_area, color_or_texture("radiance", radiance_unit, "what is emitted, >= 0"),
+          make_area, or_texture(color("radiance", radiance_unit, "what is emitted, >= 0")),
           boolean("twoSided", "whether the other side shines too (ours)"))
           .accepting({sampling_weight()}),
   };
