@@ -84,16 +84,27 @@ bool PartRun::claims(const Key& key, Claim claim) const {
   return claim == Claim::all || (hash(hash_of(job), stage) % part_.count + unit) % part_.count == part_.number - 1;
 }
 
+void PartRun::require_room(double held, double more) const {
+  const double copy = checkpoint_ ? held + more : 0;
+  require_memory(more + copy, fmt::format("the results of part {}/{}", part_.number, part_.count),
+                 "more parts need less each; MPI keeps no results");
+}
+
 void PartRun::compute_missing(const AnyJob& job, const RunOptions& options, const std::string& name,
                               std::uint64_t stage, std::size_t units, Claim claim) {
   std::vector<std::size_t> missing;
   for (std::size_t unit = 0; unit < units; ++unit)
     if (const Key key(name, stage, unit); claims(key, claim) && !find(key)) missing.push_back(unit);
+  double done = 0, bytes = 0, earlier = 0; // bytes of results of this stage, and of those before
+  for (const auto& [key, text] : results_) earlier += double(text.size());
   UnitList list{missing, options.cancel, [&](std::size_t unit, const AnyResult& result) {
                   if (!result) return;
                   ArchiveWriter writer;
                   job.write_result(writer, result);
                   const std::lock_guard lock(mutex_);
+                  done += 1;
+                  bytes += double(writer.text().size());
+                  require_room(earlier + bytes, bytes / done * (double(missing.size()) - done));
                   results_.emplace(Key(name, stage, unit), writer.take());
                   ++computed_;
                   if (checkpoint_ && checkpoint_->is_due()) checkpoint_->save();

@@ -53,6 +53,8 @@ struct Part {
 ///   merging : with the results of all parts, the same program runs again, absorbs all results in order, and has the
 ///             bits of a run without parts. Where units are missing, the run has a barrier: the parts run once more,
 ///             from the merged results.
+///   memory  : a part holds its results. It throws MemoryError as soon as those that it has show that the results of
+///             the stage will not fit.
 ///   file    : The results are saved as a checkpoint. A part that was killed goes on from its file.
 class PartRun {
  public:
@@ -92,6 +94,8 @@ class PartRun {
   bool run(const AnyJob& job, const RunOptions& options, Claim claim);
   void compute_missing(const AnyJob& job, const RunOptions& options, const std::string& name, std::uint64_t stage,
                        std::size_t units, Claim claim);
+  // Throws MemoryError unless `more` bytes of results fit beside those that are held, and a checkpoint of all.
+  void require_room(double held, double more) const;
   const std::string* find(const Key& key) const;
   bool claims(const Key& key, Claim claim) const;
 

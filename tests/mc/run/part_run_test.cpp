@@ -109,6 +109,27 @@ TEST_F(PartRunTest, KilledPart_GoesOnFromItsFile) {
               HasSubstr("it is part 1/2 of round 1, and this is part 2/2 of round 1"));
 }
 
+// A stage of a million units with 1 MB of results each.
+struct LargeJob {
+  using Result = std::string;
+  mutable std::atomic<int> computed = 0;
+  std::size_t next_stage() { return 1'000'000; }
+  std::optional<Result> compute(std::size_t) const {
+    ++computed;
+    return std::string(1'000'000, 'x');
+  }
+  void absorb(std::size_t, const Result&) {}
+  template <class Archive> void archive(Archive&) {}
+};
+
+TEST_F(PartRunTest, ResultsBeyondTheMemory_AreRefusedAtTheFirstUnit) {
+  PartRun run({1, 2}, {}, nullptr);
+  LargeJob job;
+  EXPECT_THAT(error_of([&] { mc::run_job(job, {.threads = 1, .executor = run.executor()}); }),
+              HasSubstr("the results of part 1/2 need 466 GiB of memory"));
+  EXPECT_EQ(job.computed, 1);
+}
+
 TEST_F(PartRunTest, MissingDoubleAndForeignParts_AreNamed) {
   std::vector<mc::SavedPart> all;
   for (std::uint64_t k = 1; k <= 9; ++k) {
