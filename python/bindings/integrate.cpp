@@ -136,7 +136,10 @@ py::object integrate(const py::function& f, const py::handle& domain, mc::Integr
   options.progress = progress_of(progress, cancel);
   const Integrand integrand(f, to_point_map(domain), cancel);
   const std::optional<std::size_t> outputs = integrand.count_outputs();
-  const mc::BatchIntegrand batch{[&](std::span<const double> u, std::span<double> v) { integrand(u, v); }};
+  // A call of Python costs as much as some thousand points of NumPy; the bound is for many dimensions.
+  constexpr std::size_t most_points = 4096, most_coordinates = 1 << 20;
+  const mc::BatchIntegrand batch{[&](std::span<const double> u, std::span<double> v) { integrand(u, v); },
+                                 std::min(most_points, most_coordinates / static_cast<std::size_t>(integrand.dim()))};
   try {
     mc::VectorIntegral several;
     mc::Integral one;
@@ -158,7 +161,7 @@ constexpr const char* integrate_doc = R"(Integral of f over a domain, with a con
   integrate(lambda x: numpy.exp(-x[:, 0]**2) * numpy.cos(x[:, 1]), [(0, 1), (-1, 2)])
 
 f      : a function of an array x of points: (n, d) -> (n,), or (n, k) for k integrals of the same evaluations. It is
-         called with up to 256 points at a time, and with two points first.
+         called with up to 4096 points at a time, and with two points first.
 domain : a list of d pairs (lo, hi), which may be infinite; an integer d for the unit cube; a Domain, or its text; a
          warp, which then draws the points: the integral over its domain, importance-sampled. With a single pair
          (lo, hi), or a domain or warp of scalars, x has the shape (n,).

@@ -15,17 +15,17 @@ namespace {
 // depend on the number of threads. Large evaluations have larger chunks, so that the number of sums is bounded.
 constexpr std::uint64_t least_chunk = 4096, most_chunks = 1 << 16;
 constexpr std::uint64_t most_unit = 1 << 18;    // points of a unit of several chunks
-constexpr std::uint64_t block = 256;            // points drawn at once
+constexpr std::uint64_t block = 256;            // points whose sums are added at once
 constexpr std::uint64_t least_shared = 1 << 16; // calls from which an executor computes; fewer are not worth messages
 constexpr double thread_start = 5e-4;           // seconds of work above which other threads pay off
 constexpr double most_infinite = 1e-3;          // largest volume of infinite values; a larger one is no singularity
 constexpr double few_infinite = 8;              // points always allowed to be infinite
 
-// Points of a block with their weights: an average of f * factor - c * shift + c.
-struct Block {
+// Points of a call with their weights: an average of f * factor - c * shift + c.
+struct DrawnPoints {
   std::vector<double> raw, points, factors, shifts, scratch;
 
-  Block(std::size_t n, std::size_t d, bool weighted) : points(n * d), factors(n, 1.0), scratch(d) {
+  DrawnPoints(std::size_t n, std::size_t d, bool weighted) : points(n * d), factors(n, 1.0), scratch(d) {
     if (!weighted) return;
     raw.resize(n * (d + 1));
     shifts.resize(n);
@@ -77,14 +77,15 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
                                const std::vector<SampledValues>& empty) const {
   const auto d = static_cast<std::size_t>(dim);
   Sums sums{std::vector<ScaledMoments>(outputs), empty};
-  const auto most = static_cast<std::size_t>(std::min(block, range.last - range.first));
-  Block drawn(most, d, proposal.density != nullptr);
-  std::vector<double> values(outputs * most), columns(most);
-  for (std::uint64_t first = range.first; first < range.last; first += block) {
-    const auto n = static_cast<std::size_t>(std::min(block, range.last - first));
+  const std::uint64_t call = std::clamp((integrand.max_points() + block - 1) / block * block, block, least_chunk);
+  const auto most = static_cast<std::size_t>(std::min(call, range.last - range.first));
+  DrawnPoints drawn(most, d, proposal.density != nullptr);
+  std::vector<double> values(outputs * most), columns(block);
+  for (std::uint64_t first = range.first; first < range.last; first += call) {
+    const auto n = static_cast<std::size_t>(std::min(call, range.last - first));
     drawn.draw(set, first, n, d, proposal);
     const std::span<const double> points(drawn.points.data(), n * d), factors(drawn.factors.data(), n);
-    const std::span<double> all(values.data(), n * outputs), column(columns.data(), n);
+    const std::span<double> all(values.data(), n * outputs);
     integrand(points, d, all);
     sums.zero_infinite_values(all, factors, first);
     if (const std::uint64_t done = first - range.first; keep.record && done < range.recorded) {
@@ -97,19 +98,23 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
       }
       std::copy_n(factors.begin(), m, keep.record->weights.begin() + at);
     }
-    for (std::size_t k = 0; k < outputs; ++k) {
-      for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
-      if (proposal.density) {
-        sums.sampled[k].add_weighted(column, factors);
-        for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
-      } else sums.sampled[k].averaged.add(column);
-      if (proposal.density && !proposal.control_coefficients.empty()) {
-        const double c = proposal.control_coefficients[k];
-        for (std::size_t i = 0; i < n; ++i) column[i] += c * (1 - drawn.shifts[i]);
+    for (std::size_t begin = 0; begin < n; begin += block) {
+      const std::size_t size = std::min<std::size_t>(block, n - begin);
+      const std::span<double> column(columns.data(), size);
+      for (std::size_t k = 0; k < outputs; ++k) {
+        for (std::size_t i = 0; i < size; ++i) column[i] = all[(begin + i) * outputs + k];
+        if (proposal.density) {
+          sums.sampled[k].add_weighted(column, factors.subspan(begin, size));
+          for (std::size_t i = 0; i < size; ++i) column[i] *= factors[begin + i];
+        } else sums.sampled[k].averaged.add(column);
+        if (proposal.density && !proposal.control_coefficients.empty()) {
+          const double c = proposal.control_coefficients[k];
+          for (std::size_t i = 0; i < size; ++i) column[i] += c * (1 - drawn.shifts[begin + i]);
+        }
+        const double largest = largest_size(column);
+        if (keep.batches) sums.add_to_batches(k, column, first + begin, largest);
+        sums.outputs[k].add(column, first + begin, largest);
       }
-      const double largest = largest_size(column);
-      if (keep.batches) sums.add_to_batches(k, column, first, largest);
-      sums.outputs[k].add(column, first, largest);
     }
   }
   return sums;
@@ -247,7 +252,7 @@ std::vector<Sums> Evaluator::evaluate(const std::vector<PointSet>& sets, std::ui
 
 void Evaluator::throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t index, const PointSet& set,
                                  const Proposal& proposal) const {
-  Block drawn(1, static_cast<std::size_t>(dim), proposal.density != nullptr);
+  DrawnPoints drawn(1, static_cast<std::size_t>(dim), proposal.density != nullptr);
   drawn.draw(set, index, 1, static_cast<std::size_t>(dim), proposal);
   std::vector<double> u(drawn.points.begin(), drawn.points.begin() + dim);
   std::string point;

@@ -29,6 +29,8 @@ struct Integrand {
     if (several) return !*several;
     return !batch->f;
   }
+  /// Largest number of points of a call.
+  std::size_t max_points() const { return batch ? batch->max_points : 1; }
   /// Fills `values`, output by output for each point, from points of `dim` coordinates each.
   void operator()(std::span<const double> points, std::size_t dim, std::span<double> values) const;
 };
