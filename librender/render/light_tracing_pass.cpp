@@ -54,7 +54,8 @@ RenderStats LightTracingPass::trace_with(std::uint64_t from, std::uint64_t to, F
         Stream stream(points, index);
         light_tracer_.trace(stream, max_depth_, stats.rays, [&](const Vec2& s, const Spectrum& value) {
           const double x = double(s[0]) * extent_.width, y = double(s[1]) * extent_.height;
-          if (!(x >= -reach && x < extent_.width + reach && y >= -reach && y < extent_.height + reach)) return;
+          if (!(x >= -reach && x < extent_.width + reach && y >= -reach && y < extent_.height + reach))
+            return block.add_unseen_light(value);
           const Vec2 u = stream.next2();
           const PixelChoice column = sample_pixel(x, u[0], profile), row = sample_pixel(y, u[1], profile);
           const Spectrum weighed = value * Float(column.weight * row.weight);
@@ -62,6 +63,7 @@ RenderStats LightTracingPass::trace_with(std::uint64_t from, std::uint64_t to, F
             stats.add({column.pixel, row.pixel, set, index});
           else if (const int i = column.pixel - extent_.crop.x, j = row.pixel - extent_.crop.y; block.contains(i, j))
             block.add_light_splat(i, j, static_cast<int>(set), weighed);
+          else block.add_unseen_light(weighed);
         });
       }
     }

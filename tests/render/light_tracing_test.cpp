@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace {
 
 using namespace support;
@@ -114,6 +116,42 @@ TEST(LightTracingRender, StatedVarianceMatchesActual) {
     EXPECT_GT(stated, 0.9 * real) << adaptive;
     EXPECT_LT(stated, 1.3 * real) << adaptive;
   }
+}
+
+// A floor of albedo 1/2 under a slab of glass, in parallel light from above: light that only light paths find. A slab
+// of index n transmits 2 n / (n^2 + 1), so that the radiance of the floor is 6/13.
+Scene floor_under_glass(double fov, const Vec3d& target) {
+  SceneBuilder builder;
+  const BsdfId white = builder.add(Lambert(Spectrum::Constant(Float(0.5)))), glass = builder.add(Dielectric(1.5));
+  builder.add(Light(DirectionalLight(Vec3d(0, -1, 0), Spectrum::Constant(Float(mc::pi<double>)))));
+  builder.add(TriangleMesh::rectangle(Transform::rotate(Vec3d::UnitX(), -90) * Transform::scale({20, 20, 1})), {white});
+  builder.add(TriangleMesh::box(Transform::translate({0, 1, 0}) * Transform::scale({2, 0.2, 2})), {glass});
+  builder.set(ThinLens(Transform::look_at({5, 0.6, 0}, target, {0, 1, 0}), {.fov = fov}));
+  return builder.build();
+}
+
+RenderResult rendered(const Scene& scene, int side, int spp, std::uint64_t seed) {
+  RenderOptions options;
+  options.width = options.height = side;
+  options.spp = spp;
+  options.seed = seed;
+  return render::render(scene, options);
+}
+
+TEST(LightTracingRender, FewPathsInANarrowView_ErrorIsUnknown) {
+  const Vec3d floor(0, 0, 0), sky(6, 0.6, 0);
+  const Scene narrow = floor_under_glass(0.3, floor), narrowest = floor_under_glass(0.05, floor);
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const RenderResult few = rendered(narrow, 64, 64, seed); // some light paths arrive, each in a pixel of its own
+    EXPECT_TRUE(std::isinf(few.relative_error) && std::isinf(few.worst_error)) << few.relative_error;
+    const RenderResult fewer = rendered(narrowest, 2, 20'000, seed); // hardly any arrives
+    EXPECT_TRUE(std::isinf(fewer.relative_error)) << fewer.relative_error;
+  }
+  const RenderResult wide = rendered(floor_under_glass(10, floor), 16, 256, 1);
+  EXPECT_LT(wide.relative_error, 0.2);
+  EXPECT_NEAR(wide.image.at(8, 8)[0], 6.0 / 13, 6 * std::sqrt(double(wide.image.variance[8 * 16 + 8][0])));
+  // Light paths reach no pixel whose camera paths leave the scene.
+  EXPECT_EQ(rendered(floor_under_glass(0.3, sky), 8, 64, 1).relative_error, 0);
 }
 
 } // namespace

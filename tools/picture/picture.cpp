@@ -77,8 +77,10 @@ std::string samples_per_second(const render::RenderResult& result) {
 }
 
 std::string format_error(const render::RenderResult& result) {
-  if (!std::isfinite(result.relative_error))
-    return result.missing_rows > 0 ? "unknown" : "unknown (one sample per pixel)";
+  if (!std::isfinite(result.relative_error)) {
+    if (result.missing_rows > 0) return "unknown";
+    return result.estimates < 2 ? "unknown (one sample per pixel)" : "unknown (few light paths reach the picture)";
+  }
   return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
 }
 

@@ -151,6 +151,7 @@ void Film::add(const FilmBlock& block, Film* window) {
   for (const auto& [x, y, set, sum] : block.splats_) splats.add_splat(x, row(y), set, sum);
   for (const auto& [x, y, set, value] : block.light_splats_) add_light_splat(x, y, set, value.cast<double>());
   for (const auto& [x, y, samples, rays] : block.records_) record_samples(x, y, samples, rays);
+  add_unseen_light(block.unseen_light_);
   add_light_rays(block.light_rays_);
 }
 
@@ -280,7 +281,31 @@ RelativeErrors Film::relative_errors(const Image& image) const {
                             std::max(errors.worst_block.bound, error.bound)};
     }
   errors.image = picture.error();
-  return errors;
+  return has_enough_light_paths(image, errors.image.bound) ? errors : RelativeErrors{};
+}
+
+bool Film::has_enough_light_paths(const Image& image, double error) const {
+  const double count = light_count();
+  if (!(count > 0)) return true;
+  double all = 0, light = 0, dominated = 0; // sums of radiance over the pixels
+  for (std::size_t i = 0; i < light_sums_.size(); ++i) {
+    all += double(luminance(image.pixels[i]));
+    double own = 0;
+    for (std::size_t set = 0; set < static_cast<std::size_t>(sets_); ++set)
+      own += luminance(light_[i * static_cast<std::size_t>(sets_) + set]) / count;
+    light += own;
+    if (light_sums_[i].squares < 2 * mc::sqr(light_sums_[i].largest)) dominated += own;
+  }
+  if (light > 0) return dominated <= all / 2;
+  if (unseen_light_.count == 0 || !sees_surfaces()) return true;
+  return 3 * unseen_light_.sum / double(unseen_light_.count) / count <= error * all;
+}
+
+bool Film::sees_surfaces() const {
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x)
+      if (rays(x, y) > samples_[sample_index(x, y)].count) return true;
+  return false;
 }
 
 double Film::effective_sample_count(int x, int y) const {

@@ -41,6 +41,15 @@ struct LightSums {
   template <class Archive> void archive(Archive& a) { a(squares, largest, channel_largest); }
 };
 
+/// Contributions of light paths that no pixel of the film takes; see Film::add_unseen_light.
+struct UnseenLight {
+  std::uint64_t count = 0; ///< Number of contributions.
+  double sum = 0;          ///< Sum of their luminances.
+
+  /// The sums, see mc/run/archive.h.
+  template <class Archive> void archive(Archive& a) { a(count, sum); }
+};
+
 /// Statistics of a pixel's samples: spread, extremes and jumps. Plain sums need less memory than mc::Moments of
 /// luminance and channels, and no division for each sample.
 struct SampleSums {
@@ -159,6 +168,11 @@ class Film {
   /// Adds a light path contribution to a point set of a pixel. Its mean is over the count of add_light_path_count(),
   /// not over the samples of the pixel.
   void add_light_splat(int x, int y, int set, const Eigen::Array3d& value);
+  /// Adds a light path contribution outside the film. If none is inside, these tell how bright one would be.
+  void add_unseen_light(const UnseenLight& light) {
+    unseen_light_.count += light.count;
+    unseen_light_.sum += light.sum;
+  }
   /// Adds light paths to the count of a point set. The unit is `samples` samples of every pixel, at the light path
   /// rate.
   void add_light_path_count(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
@@ -178,7 +192,7 @@ class Film {
   template <class Archive> void archive(Archive& a) {
     using mc::fixed_size;
     a(fixed_size(sums_), fixed_size(counts_), fixed_size(weights_), fixed_size(samples_), fixed_size(rays_),
-      fixed_size(light_), fixed_size(light_sums_), fixed_size(light_counts_), light_rays_);
+      fixed_size(light_), fixed_size(light_sums_), fixed_size(light_counts_), unseen_light_, light_rays_);
   }
 
   /// Adds the statistics of a pixel's samples and the number of rays that they took. With splats the pixel may lie
@@ -209,7 +223,9 @@ class Film {
 
   /// Mean relative standard errors: the root of the mean of variance / radiance^2 over pixels and channels. The
   /// radiance is the mean over the 3x3 neighbourhood, so that a rare bright sample is not divided by itself. It is at
-  /// least half of the image's mean. Infinite while the variance is unknown in some pixel.
+  /// least half of the image's mean. Infinite while the variance is unknown in some pixel, and where too few light paths
+  /// reach the film to tell: one contribution dominates the light of pixels with half of the image's radiance. Or none
+  /// reaches it, and three would matter (the rule of three: with 95 % confidence fewer than three are expected).
   RelativeErrors relative_errors() const { return relative_errors(image()); }
   /// As relative_errors(), for a caller that already has the result of image().
   RelativeErrors relative_errors(const Image& image) const;
@@ -245,6 +261,11 @@ class Film {
   // Effective sample count of a pixel within reach.
   double effective_sample_count(int x, int y) const;
 
+  // Whether light paths of an image reach the film often enough for its error, see relative_errors().
+  bool has_enough_light_paths(const Image& image, double error) const;
+  // Whether some camera path goes on from a surface: light paths reach no others.
+  bool sees_surfaces() const;
+
   // Number of samples of every pixel that the light paths correspond to.
   double light_count() const { return std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0); }
 
@@ -258,6 +279,7 @@ class Film {
   std::vector<Eigen::Array3d> light_; ///< Light path sums, in the order of sums_; empty without light paths.
   std::vector<LightSums> light_sums_; ///< One entry for each pixel.
   std::vector<double> light_counts_;  ///< One entry for each set.
+  UnseenLight unseen_light_;
   std::uint64_t light_rays_ = 0;
 };
 

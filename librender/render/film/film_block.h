@@ -26,6 +26,12 @@ class FilmBlock {
   void add_splat(int x, int y, int set, const Eigen::Array4d& sum) { splats_.push_back({x, y, set, sum}); }
   /// As Film::add_light_splat().
   void add_light_splat(int x, int y, int set, const Spectrum& value) { light_splats_.push_back({x, y, set, value}); }
+  /// Counts a light path contribution outside the film, if it is finite; see Film::add_unseen_light().
+  void add_unseen_light(const Spectrum& value) {
+    if (!value.isFinite().all()) return;
+    ++unseen_light_.count;
+    unseen_light_.sum += double(luminance(value));
+  }
   /// As Film::add_light_rays().
   void add_light_rays(std::uint64_t rays) { light_rays_ += rays; }
   /// As Film::record_samples().
@@ -35,7 +41,7 @@ class FilmBlock {
 
   /// The samples, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) {
-    a(width_, height_, sets_, sums_, splats_, light_splats_, records_, light_rays_);
+    a(width_, height_, sets_, sums_, splats_, light_splats_, records_, unseen_light_, light_rays_);
   }
 
  private:
@@ -69,6 +75,7 @@ class FilmBlock {
   std::vector<Splat> splats_;
   std::vector<LightSplat> light_splats_;
   std::vector<Record> records_;
+  UnseenLight unseen_light_;
   std::uint64_t light_rays_ = 0;
 };
 
