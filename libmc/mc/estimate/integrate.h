@@ -165,8 +165,9 @@ struct VectorIntegral {
 /// f(u, values) fills `values` with one value per output for the point u of the unit cube.
 using VectorIntegrand = std::function<void(std::span<const double> u, std::span<double> values)>;
 
-/// Integrand that processes many points at a time. f(points, values) receives the coordinates of each point in sequence.
-/// It fills `values` with the outputs of each point in sequence. The result has the same bits as for single points.
+/// Integrand that processes many points at a time. f(points, values) receives the coordinates of each point in
+/// sequence. It fills `values` with the outputs of each point in sequence. The result has the same bits as for single
+/// points.
 struct BatchIntegrand {
   std::function<void(std::span<const double> points, std::span<double> values)> f; ///< Evaluates the points.
   /// Largest number of points of a call, rounded up to a multiple of 256; more than 4096 count as 4096. Large for

@@ -223,9 +223,10 @@ class Film {
 
   /// Mean relative standard errors: the root of the mean of variance / radiance^2 over pixels and channels. The
   /// radiance is the mean over the 3x3 neighbourhood, so that a rare bright sample is not divided by itself. It is at
-  /// least half of the image's mean. Infinite while the variance is unknown in some pixel, and where too few light paths
-  /// reach the film to tell: one contribution dominates the light of pixels with half of the image's radiance. Or none
-  /// reaches it, and three would matter (the rule of three: with 95 % confidence fewer than three are expected).
+  /// least half of the image's mean. Infinite while the variance is unknown in some pixel, and where too few light
+  /// paths reach the film to tell. That is so if one contribution dominates the light of the pixels that have half of
+  /// the image's radiance. It is also so if no contribution reaches the film, and three of average size would exceed
+  /// the error (the rule of three: fewer are expected with 95 % confidence).
   RelativeErrors relative_errors() const { return relative_errors(image()); }
   /// As relative_errors(), for a caller that already has the result of image().
   RelativeErrors relative_errors(const Image& image) const;

@@ -22,10 +22,10 @@ constexpr double most_infinite = 1e-3;          // largest volume of infinite va
 constexpr double few_infinite = 8;              // points always allowed to be infinite
 
 // Points of a call with their weights: an average of f * factor - c * shift + c.
-struct DrawnPoints {
+struct WeightedPoints {
   std::vector<double> raw, points, factors, shifts, scratch;
 
-  DrawnPoints(std::size_t n, std::size_t d, bool weighted) : points(n * d), factors(n, 1.0), scratch(d) {
+  WeightedPoints(std::size_t n, std::size_t d, bool weighted) : points(n * d), factors(n, 1.0), scratch(d) {
     if (!weighted) return;
     raw.resize(n * (d + 1));
     shifts.resize(n);
@@ -79,7 +79,7 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
   Sums sums{std::vector<ScaledMoments>(outputs), empty};
   const std::uint64_t call = std::clamp((integrand.max_points() + block - 1) / block * block, block, least_chunk);
   const auto most = static_cast<std::size_t>(std::min(call, range.last - range.first));
-  DrawnPoints drawn(most, d, proposal.density != nullptr);
+  WeightedPoints drawn(most, d, proposal.density != nullptr);
   std::vector<double> values(outputs * most), columns(block);
   for (std::uint64_t first = range.first; first < range.last; first += call) {
     const auto n = static_cast<std::size_t>(std::min(call, range.last - first));
@@ -252,7 +252,7 @@ std::vector<Sums> Evaluator::evaluate(const std::vector<PointSet>& sets, std::ui
 
 void Evaluator::throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t index, const PointSet& set,
                                  const Proposal& proposal) const {
-  DrawnPoints drawn(1, static_cast<std::size_t>(dim), proposal.density != nullptr);
+  WeightedPoints drawn(1, static_cast<std::size_t>(dim), proposal.density != nullptr);
   drawn.draw(set, index, 1, static_cast<std::size_t>(dim), proposal);
   std::vector<double> u(drawn.points.begin(), drawn.points.begin() + dim);
   std::string point;
