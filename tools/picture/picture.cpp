@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -81,6 +82,8 @@ std::string format_error(const render::RenderResult& result) {
     if (result.missing_rows > 0) return "unknown";
     return result.estimates < 2 ? "unknown (one sample per pixel)" : "unknown (few light paths reach the picture)";
   }
+  if (std::all_of(result.image.pixels.begin(), result.image.pixels.end(), render::is_black))
+    return "unknown (the picture is black)";
   return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
 }
 

@@ -297,7 +297,7 @@ bool Film::has_enough_light_paths(const Image& image, double error) const {
     if (light_sums_[i].squares < 2 * mc::sqr(light_sums_[i].largest)) dominated += own;
   }
   if (light > 0) return dominated <= all / 2;
-  if (unseen_light_.count == 0 || !sees_surfaces()) return true;
+  if (all == 0 || unseen_light_.count == 0 || !sees_surfaces()) return true;
   return 3 * unseen_light_.sum / double(unseen_light_.count) / count <= error * all;
 }
 

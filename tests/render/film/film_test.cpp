@@ -93,6 +93,44 @@ TEST(Film, LightSplat_CanDominatePixel) {
     }
 }
 
+// 10x10 pixels of radiance 1 with an error of 5 %, and 100 light paths for each pixel.
+Film lit_film() {
+  Film film(10, 10, 2, {.has_light_paths = true});
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 10; ++x) {
+      film.add(x, y, 0, grey(47.5), 50);
+      film.add(x, y, 1, grey(52.5), 50);
+      SampleSums samples;
+      for (int i = 0; i < 100; ++i) samples.add(grey(i % 2 ? 0.5 : 1.5));
+      film.record_samples(x, y, samples, 200);
+    }
+  for (int set = 0; set < 2; ++set) film.add_light_path_count(set, 50);
+  return film;
+}
+
+// Light of the picture that came by one path to each of some pixels: the others have an unknown share of it.
+TEST(Film, LightByOnePathToAPixel_ErrorIsUnknown) {
+  for (const int paths : {1, 2}) {
+    for (const double light : {40.0, 60.0, 400.0}) { // the sum over ten pixels; the other light has the sum 100
+      Film film = lit_film();
+      for (int x = 0; x < 10; ++x)
+        for (int i = 0; i < paths; ++i) film.add_light_splat(x, 5, i, grey(100 * light / 10 / paths));
+      EXPECT_EQ(std::isfinite(film.relative_errors().image.value), light < 100 || paths == 2) << light << " " << paths;
+    }
+  }
+}
+
+// No path reaches the film. Three, of 100 for each of 100 pixels, would add 3 v / 100 to the sum of the radiance, 100.
+TEST(Film, BrightLightByNoPath_ErrorIsUnknown) {
+  for (const double v : {50.0, 500.0}) {
+    Film film = lit_film();
+    film.add_unseen_light({.count = 4, .sum = 4 * v});
+    EXPECT_EQ(std::isfinite(film.relative_errors().image.value), v == 50) << v;
+    film.add_light_splat(3, 3, 0, grey(1));
+    EXPECT_TRUE(std::isfinite(film.relative_errors().image.value));
+  }
+}
+
 TEST(Film, OneSetHasNoVariance) {
   Film film(1, 1, 2);
   film.add(0, 0, 0, grey(1), 5);
