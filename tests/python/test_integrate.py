@@ -69,7 +69,7 @@ def test_blocks_have_the_documented_shapes():
 
     def f(x):
         shapes.add(x.shape[1:])
-        assert 1 <= len(x) <= 256 and x.flags.c_contiguous
+        assert 1 <= len(x) <= 4096 and x.flags.c_contiguous
         return np.ones(len(x))
 
     libmc.integrate(f, [(0, 1)])
