@@ -196,10 +196,21 @@ TEST_F(ImageCommand, Png_WarnsOfPixelsThatAreNotFinite) {
   EXPECT_TRUE(std::isnan(b.at(3, 2)[1]) && std::isinf(b.at(5, 5)[0])) << "an EXR stores them";
 }
 
+TEST_F(ImageCommand, PictureBeyondTheMemory_IsRefused) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve more memory than any limit allows";
+#endif
+  render::write_image(path("big.png"), render::Image(2000, 2000));
+  const support::ProcessResult run = convert("big.png", "b.exr", "--memory 0.01");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.output, HasSubstr("--memory sets another limit"));
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  EXPECT_FALSE(std::filesystem::exists(path("b.exr")));
+}
+
 TEST_F(ImageCommand, BadInput_IsOneLineAndWritesNothing) {
   render::write_image(path("plain.exr"), render::Image(2, 2));
   render::write_image(path("p.pfm"), render::Image(2, 2));
-  render::write_image(path("big.png"), render::Image(2000, 2000));
   write("broken.exr", "no EXR");
   const std::string before = mc::read_file(path("a.exr"));
   for (const auto& [in, out, options, words] : std::vector<std::array<std::string, 4>>{
@@ -220,8 +231,7 @@ TEST_F(ImageCommand, BadInput_IsOneLineAndWritesNothing) {
            {"a.exr", "b.exr", "--layer variance --exposure auto", "the layer variance is no light, and"},
            {"a.exr", "b.png", "--layer albdo", "did you mean 'albedo'?; use one of variance, Z, albedo"},
            {"plain.exr", "b.png", "--layer Z", "has no layers; carlo render --layers writes them"},
-           {"p.pfm", "b.png", "--layer Z", "p.pfm' has no layers; only an .exr has them"},
-           {"big.png", "b.exr", "--memory 0.01", "--memory sets another limit"}}) {
+           {"p.pfm", "b.png", "--layer Z", "p.pfm' has no layers; only an .exr has them"}}) {
     const support::ProcessResult run = convert(in, out, options);
     EXPECT_EQ(run.exit_code, 2) << options << run.output;
     EXPECT_THAT(run.output, HasSubstr(words)) << options;
