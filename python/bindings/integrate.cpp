@@ -136,7 +136,7 @@ py::object integrate(const py::function& f, const py::handle& domain, mc::Integr
   options.progress = progress_of(progress, cancel);
   const Integrand integrand(f, to_point_map(domain), cancel);
   const std::optional<std::size_t> outputs = integrand.count_outputs();
-  // A call of Python costs as much as some thousand points of NumPy; the bound is for many dimensions.
+  // Many points, for a call of Python is dear; fewer in many dimensions, for memory.
   constexpr std::size_t most_points = 4096, most_coordinates = 1 << 20;
   const mc::BatchIntegrand batch{[&](std::span<const double> u, std::span<double> v) { integrand(u, v); },
                                  std::min(most_points, most_coordinates / static_cast<std::size_t>(integrand.dim()))};

@@ -154,6 +154,8 @@ class ArchiveWriter {
     (detail::archive_value(*this, const_cast<T&>(values)), ...);
     return *this;
   }
+  /// Makes room for n more bytes, so that the text does not grow by copies.
+  void reserve(std::size_t n) { text_.reserve(text_.size() + n); }
   /// Appends n bytes.
   void bytes(const void* data, std::size_t n) { text_.append(static_cast<const char*>(data), n); }
   /// Appends what write() appends, as a string: with its length before it.

@@ -26,6 +26,12 @@ struct UnitList {
   void close() { next = units.size(); }
 };
 
+// Memory of a result in a map, about.
+double bytes_of_result(const std::string& text) {
+  constexpr double node = 160; // with the key and what the allocator adds
+  return double(text.size()) + node;
+}
+
 std::uint64_t hash_of(const std::string& text) {
   std::uint64_t all = text.size();
   for (const char c : text) all = hash(all, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
@@ -54,6 +60,7 @@ PartRun::PartRun(Part part, std::vector<std::string> command, Checkpoint* checkp
           require(saved.number == part_.number && saved.count == part_.count && saved.round == part_.round,
                   "it is part {}/{} of round {}, and this is part {}/{} of round {}", saved.number, saved.count,
                   saved.round, part_.number, part_.count, part_.round);
+        else a.reserve(static_cast<std::size_t>(held_bytes_));
         a(part_.number == 0 ? base_ : results_);
       }) {
   require(part.number <= part.count, "part {}/{} must be one of 1 to {}", part.number, part.count, part.count);
@@ -84,9 +91,9 @@ bool PartRun::claims(const Key& key, Claim claim) const {
   return claim == Claim::all || (hash(hash_of(job), stage) % part_.count + unit) % part_.count == part_.number - 1;
 }
 
-void PartRun::require_room(double held, double more) const {
-  const double copy = checkpoint_ ? held + more : 0;
-  require_memory(more + copy, fmt::format("the results of part {}/{}", part_.number, part_.count),
+void PartRun::require_room(double more) const {
+  const double copies = checkpoint_ ? 2 * (held_bytes_ + more) : 0; // a new one, and the memory of the one before
+  require_memory(more + copies, fmt::format("the results of part {}/{}", part_.number, part_.count),
                  "more parts need less each; MPI keeps no results");
 }
 
@@ -95,17 +102,19 @@ void PartRun::compute_missing(const AnyJob& job, const RunOptions& options, cons
   std::vector<std::size_t> missing;
   for (std::size_t unit = 0; unit < units; ++unit)
     if (const Key key(name, stage, unit); claims(key, claim) && !find(key)) missing.push_back(unit);
-  double done = 0, bytes = 0, earlier = 0; // bytes of results of this stage, and of those before
-  for (const auto& [key, text] : results_) earlier += double(text.size());
+  double done = 0, bytes = 0; // of this stage
+  held_bytes_ = 0;
+  for (const auto& [key, text] : results_) held_bytes_ += bytes_of_result(text);
   UnitList list{missing, options.cancel, [&](std::size_t unit, const AnyResult& result) {
                   if (!result) return;
                   ArchiveWriter writer;
                   job.write_result(writer, result);
                   const std::lock_guard lock(mutex_);
                   done += 1;
-                  bytes += double(writer.text().size());
-                  require_room(earlier + bytes, bytes / done * (double(missing.size()) - done));
-                  results_.emplace(Key(name, stage, unit), writer.take());
+                  bytes += bytes_of_result(writer.text());
+                  require_room(bytes / done * (double(missing.size()) - done));
+                  held_bytes_ += bytes_of_result(writer.text());
+                  results_.emplace(Key(name, stage, unit), writer.text()); // without the writer's unused memory
                   ++computed_;
                   if (checkpoint_ && checkpoint_->is_due()) checkpoint_->save();
                 }};
@@ -118,7 +127,12 @@ bool PartRun::run(const AnyJob& job, const RunOptions& options, Claim claim) {
   bool is_complete = true;
   std::size_t units = 0;
   for (std::uint64_t stage = 0; (units = job.next_stage()) > 0; ++stage) {
-    compute_missing(job, options, name, stage, units, claim);
+    try {
+      compute_missing(job, options, name, stage, units, claim);
+    } catch (...) {
+      save(false); // what is known before the failure
+      throw;
+    }
     if (options.cancel && options.cancel->load()) throw EndOfPart();
     for (std::size_t unit = 0; unit < units; ++unit) {
       if (const std::string* bytes = find(Key(name, stage, unit))) {

@@ -55,7 +55,8 @@ struct Part {
 ///             from the merged results.
 ///   memory  : a part holds its results. It throws MemoryError as soon as those that it has show that the results of
 ///             the stage will not fit.
-///   file    : The results are saved as a checkpoint. A part that was killed goes on from its file.
+///   file    : the results are saved as a checkpoint, also before an exception of the job. A part that was killed goes
+///             on from its file.
 class PartRun {
  public:
   /// Units that an executor computes; results that are known are used by all.
@@ -94,8 +95,8 @@ class PartRun {
   bool run(const AnyJob& job, const RunOptions& options, Claim claim);
   void compute_missing(const AnyJob& job, const RunOptions& options, const std::string& name, std::uint64_t stage,
                        std::size_t units, Claim claim);
-  // Throws MemoryError unless `more` bytes of results fit beside those that are held, and a checkpoint of all.
-  void require_room(double held, double more) const;
+  // Throws MemoryError unless `more` bytes of results fit beside those that are held, and checkpoints of all.
+  void require_room(double more) const;
   const std::string* find(const Key& key) const;
   bool claims(const Key& key, Claim claim) const;
 
@@ -105,6 +106,7 @@ class PartRun {
   std::mutex mutex_;                          // of the results
   Results results_,                           ///< of this part
       base_;                                  ///< of the files that were added
+  double held_bytes_ = 0;                     ///< memory of the results of this part, about
   std::map<std::string, std::uint64_t> jobs_; ///< number of jobs of each name so far
   std::uint64_t computed_ = 0;
   Checkpoint::Section section_;

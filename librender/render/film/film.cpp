@@ -281,12 +281,12 @@ RelativeErrors Film::relative_errors(const Image& image) const {
                             std::max(errors.worst_block.bound, error.bound)};
     }
   errors.image = picture.error();
-  return has_enough_light_paths(image, errors.image.bound) ? errors : RelativeErrors{};
+  return with_few_light_paths(errors, image);
 }
 
-bool Film::has_enough_light_paths(const Image& image, double error) const {
+RelativeErrors Film::with_few_light_paths(RelativeErrors errors, const Image& image) const {
   const double count = light_count();
-  if (!(count > 0)) return true;
+  if (!(count > 0)) return errors;
   double all = 0, light = 0, dominated = 0; // sums of radiance over the pixels
   for (std::size_t i = 0; i < light_sums_.size(); ++i) {
     all += double(luminance(image.pixels[i]));
@@ -296,9 +296,13 @@ bool Film::has_enough_light_paths(const Image& image, double error) const {
     light += own;
     if (light_sums_[i].squares < 2 * mc::sqr(light_sums_[i].largest)) dominated += own;
   }
-  if (light > 0) return dominated <= all / 2;
-  if (all == 0 || unseen_light_.count == 0 || !sees_surfaces()) return true;
-  return 3 * unseen_light_.sum / double(unseen_light_.count) / count <= error * all;
+  if (!(all > 0)) return errors;
+  const bool may_miss_light = light == 0 && unseen_light_.count > 0 && sees_surfaces();
+  const double missing = may_miss_light ? 3 * unseen_light_.sum / double(unseen_light_.count) / count : 0;
+  if (std::max(dominated, missing) > all / 2) return {};
+  for (RelativeError* error : {&errors.image, &errors.worst_block})
+    *error = {std::max(error->value, missing / all), std::max(error->bound, missing / all)};
+  return errors;
 }
 
 bool Film::sees_surfaces() const {

@@ -46,6 +46,17 @@ struct UnseenLight {
   std::uint64_t count = 0; ///< Number of contributions.
   double sum = 0;          ///< Sum of their luminances.
 
+  /// Adds one contribution, unless it is not finite.
+  void add(const Spectrum& value) {
+    if (!value.isFinite().all()) return;
+    ++count;
+    sum += double(luminance(value));
+  }
+  /// Adds other contributions.
+  void merge(const UnseenLight& other) {
+    count += other.count;
+    sum += other.sum;
+  }
   /// The sums, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) { a(count, sum); }
 };
@@ -168,11 +179,8 @@ class Film {
   /// Adds a light path contribution to a point set of a pixel. Its mean is over the count of add_light_path_count(),
   /// not over the samples of the pixel.
   void add_light_splat(int x, int y, int set, const Eigen::Array3d& value);
-  /// Adds a light path contribution outside the film. If none is inside, these tell how bright one would be.
-  void add_unseen_light(const UnseenLight& light) {
-    unseen_light_.count += light.count;
-    unseen_light_.sum += light.sum;
-  }
+  /// Adds light path contributions outside the film. If none is inside, these tell how bright one would be.
+  void add_unseen_light(const UnseenLight& light) { unseen_light_.merge(light); }
   /// Adds light paths to the count of a point set. The unit is `samples` samples of every pixel, at the light path
   /// rate.
   void add_light_path_count(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
@@ -223,10 +231,11 @@ class Film {
 
   /// Mean relative standard errors: the root of the mean of variance / radiance^2 over pixels and channels. The
   /// radiance is the mean over the 3x3 neighbourhood, so that a rare bright sample is not divided by itself. It is at
-  /// least half of the image's mean. Infinite while the variance is unknown in some pixel, and where too few light
-  /// paths reach the film to tell. That is so if one contribution dominates the light of the pixels that have half of
-  /// the image's radiance. It is also so if no contribution reaches the film, and three of average size would exceed
-  /// the error (the rule of three: fewer are expected with 95 % confidence).
+  /// least half of the image's mean. Infinite while the variance is unknown in some pixel.
+  ///   few light paths : the errors are infinite if more than half of the image's radiance are light path contributions
+  ///                     that each dominate their pixel: other pixels have none by chance. If no contribution reaches
+  ///                     the film, three of average size count as an error of all pixels, and as infinite if they
+  ///                     exceed half of the image's radiance. Rule of three: with 95 % confidence fewer are expected.
   RelativeErrors relative_errors() const { return relative_errors(image()); }
   /// As relative_errors(), for a caller that already has the result of image().
   RelativeErrors relative_errors(const Image& image) const;
@@ -262,8 +271,8 @@ class Film {
   // Effective sample count of a pixel within reach.
   double effective_sample_count(int x, int y) const;
 
-  // Whether light paths of an image reach the film often enough for its error, see relative_errors().
-  bool has_enough_light_paths(const Image& image, double error) const;
+  // Errors of an image that account for few light paths, see relative_errors().
+  RelativeErrors with_few_light_paths(RelativeErrors errors, const Image& image) const;
   // Whether some camera path goes on from a surface: light paths reach no others.
   bool sees_surfaces() const;
 

@@ -26,12 +26,8 @@ class FilmBlock {
   void add_splat(int x, int y, int set, const Eigen::Array4d& sum) { splats_.push_back({x, y, set, sum}); }
   /// As Film::add_light_splat().
   void add_light_splat(int x, int y, int set, const Spectrum& value) { light_splats_.push_back({x, y, set, value}); }
-  /// Counts a light path contribution outside the film, if it is finite; see Film::add_unseen_light().
-  void add_unseen_light(const Spectrum& value) {
-    if (!value.isFinite().all()) return;
-    ++unseen_light_.count;
-    unseen_light_.sum += double(luminance(value));
-  }
+  /// As Film::add_unseen_light().
+  void add_unseen_light(const Spectrum& value) { unseen_light_.add(value); }
   /// As Film::add_light_rays().
   void add_light_rays(std::uint64_t rays) { light_rays_ += rays; }
   /// As Film::record_samples().

@@ -109,25 +109,31 @@ TEST_F(PartRunTest, KilledPart_GoesOnFromItsFile) {
               HasSubstr("it is part 1/2 of round 1, and this is part 2/2 of round 1"));
 }
 
-// A stage of a million units with 1 MB of results each.
+// A stage of four small units, and one of a million units with 1 MB of results each.
 struct LargeJob {
   using Result = std::string;
+  int stage = 0;
   mutable std::atomic<int> computed = 0;
-  std::size_t next_stage() { return 1'000'000; }
+  std::size_t next_stage() { return ++stage == 1 ? 4 : 1'000'000; }
   std::optional<Result> compute(std::size_t) const {
     ++computed;
-    return std::string(1'000'000, 'x');
+    return std::string(stage == 1 ? 1 : 1'000'000, 'x');
   }
   void absorb(std::size_t, const Result&) {}
   template <class Archive> void archive(Archive&) {}
 };
 
-TEST_F(PartRunTest, ResultsBeyondTheMemory_AreRefusedAtTheFirstUnit) {
-  PartRun run({1, 2}, {}, nullptr);
-  LargeJob job;
-  EXPECT_THAT(error_of([&] { mc::run_job(job, {.threads = 1, .executor = run.executor()}); }),
-              HasSubstr("the results of part 1/2 need 466 GiB of memory"));
-  EXPECT_EQ(job.computed, 1);
+TEST_F(PartRunTest, ResultsBeyondTheMemory_AreRefusedAtTheFirstUnitAndEarlierOnesSaved) {
+  for (const int known : {0, 4}) { // units in the file
+    const auto files = checkpoint(part_file(1), known > 0);
+    PartRun run({1, 1}, {}, files.get());
+    LargeJob job;
+    // Three times: the results and two checkpoints of them.
+    EXPECT_THAT(error_of([&] { mc::run_job(job, {.threads = 1, .executor = run.executor()}); }),
+                HasSubstr("the results of part 1/1 need 2.79e+03 GiB of memory"));
+    EXPECT_EQ(job.computed, 4 - known + 1);
+  }
+  EXPECT_FALSE(mc::read_part(part_file(1)).part.is_whole);
 }
 
 TEST_F(PartRunTest, MissingDoubleAndForeignParts_AreNamed) {

@@ -121,13 +121,19 @@ TEST(Film, LightByOnePathToAPixel_ErrorIsUnknown) {
 }
 
 // No path reaches the film. Three, of 100 for each of 100 pixels, would add 3 v / 100 to the sum of the radiance, 100.
-TEST(Film, BrightLightByNoPath_ErrorIsUnknown) {
-  for (const double v : {50.0, 500.0}) {
+TEST(Film, LightByNoPath_IsPartOfTheError) {
+  const RelativeErrors stated = lit_film().relative_errors();
+  ASSERT_NEAR(stated.image.value, 0.05, 1e-9);
+  for (const auto& [v, error] : {std::pair(50.0, 0.05), {500.0, 0.15}, {5000.0, mc::infinity<double>}}) {
     Film film = lit_film();
     film.add_unseen_light({.count = 4, .sum = 4 * v});
-    EXPECT_EQ(std::isfinite(film.relative_errors().image.value), v == 50) << v;
+    const RelativeErrors errors = film.relative_errors();
+    for (const RelativeError& e : {errors.image, errors.worst_block}) {
+      EXPECT_DOUBLE_EQ(e.value, std::max(error, stated.image.value)) << v;
+      EXPECT_GE(e.bound, e.value);
+    }
     film.add_light_splat(3, 3, 0, grey(1));
-    EXPECT_TRUE(std::isfinite(film.relative_errors().image.value));
+    EXPECT_NEAR(film.relative_errors().image.value, stated.image.value, 0.01);
   }
 }
 

@@ -104,6 +104,18 @@ TEST_F(MemoryOfCommands, HugeMeasurements_AreRefused) {
                  "the method plain needs less");
 }
 
+// The stages of a render double. A part is refused before the one that does not fit, and what it has goes on.
+TEST_F(MemoryOfCommands, PartOfManyLightPaths_EndsBeforeAStageThatDoesNotFit) {
+  const std::string part =
+      "render '" MC_SOURCE_DIR "/librender/scenes/book3-cornell-glass.xml' --size 32x32 --spp 65536 "
+      "--adaptive off --strategy mis+lt --part 1/2 -o p.ckpt";
+  expect_refused(60, part, "the results of part 1/2 need ", "more parts need less each");
+  const auto size = std::filesystem::file_size(folder / "p.ckpt");
+  EXPECT_GT(size, 1'000'000u);
+  expect_refused(60, part, "the results of part 1/2 need ", "more parts need less each");
+  EXPECT_GE(std::filesystem::file_size(folder / "p.ckpt"), size);
+}
+
 TEST_F(MemoryOfCommands, HugeFiles_AreRefused) {
   for (const std::string name : {"a.csv", "a.ckpt", "a.ply"}) {
     write(name, "");
