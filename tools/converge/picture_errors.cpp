@@ -71,10 +71,12 @@ BiasAndNoise bias_and_noise_of(const PictureSeries& s, const ReferencePicture& r
 
 } // namespace
 
-double noise(const Image& image, double relmse_floor) {
+double noise(const Image& image, const ReferencePicture& reference) {
   double sum = 0;
-  for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    sum += (image.variance[i].cast<double>() / (image.pixels[i].cast<double>().square() + relmse_floor)).sum();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Eigen::Array3d radiance = reference.image.pixels[i].cast<double>();
+    sum += (image.variance[i].cast<double>() / (radiance.square() + reference.relmse_floor)).sum();
+  }
   return sum / (3.0 * double(image.pixels.size()));
 }
 

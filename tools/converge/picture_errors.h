@@ -35,8 +35,8 @@ inline constexpr int first_pictures = 8, most_pictures = 64;
 /// Roots of relmse below this are rounding of pixels, not noise.
 inline constexpr double rounding_of_pixels = 8 * std::numeric_limits<render::Float>::epsilon();
 
-/// The relmse caused by an image's own noise.
-double noise(const render::Image& image, double relmse_floor);
+/// The relmse caused by an image's own noise, from the variances that it states.
+double noise(const render::Image& image, const ReferencePicture& reference);
 
 /// The floor for relmse, from the first reference picture.
 double relmse_floor_of(const render::Image& image);

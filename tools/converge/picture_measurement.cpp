@@ -130,7 +130,7 @@ class PictureSession {
     for (std::size_t i = 0; i < methods_.size(); ++i) {
       if (wanted_[i] == 0) continue;
       for (const Image& image : level_[i].images)
-        level_[i].replicates.values.push_back(std::sqrt(noise(image, reference_.relmse_floor)));
+        level_[i].replicates.values.push_back(std::sqrt(noise(image, reference_)));
       curves_[i].errors.push_back(error_of(level_[i], reference_));
       curves_[i].replicates.push_back(level_[i].replicates);
     }
@@ -165,19 +165,26 @@ class PictureSession {
     return true;
   }
 
-  // Adds to the reference until its error is a tenth of the smallest noise of this level. Returns false when cancelled.
+  // The smallest mean noise of a method at this level. A single picture may have little by chance.
+  double smallest_noise() const {
+    double smallest = mc::infinity<double>;
+    for (const PictureSeries& s : level_) {
+      mc::Moments noises;
+      for (const Image& image : s.images) noises.add(noise(image, reference_));
+      if (noises.mean() > mc::sqr(rounding_of_pixels)) smallest = std::min(smallest, noises.mean());
+    }
+    mc::require(std::isfinite(smallest), "no picture has noise: there is no error to measure");
+    return smallest;
+  }
+
+  // Adds to the reference until its error is a tenth of the smallest noise. Returns false when cancelled.
   bool refine_reference() {
     if (reference_.spp == 0 && !add_to_reference(16.0 * spp_)) return false;
-    double smallest = mc::infinity<double>;
-    for (const PictureSeries& s : level_)
-      for (const Image& image : s.images)
-        if (const double x = noise(image, reference_.relmse_floor); x > mc::sqr(rounding_of_pixels))
-          smallest = std::min(smallest, x);
-    mc::require(std::isfinite(smallest), "no picture has noise: there is no error to measure");
-    const double goal = smallest / 100;
-    while (reference_.noise > goal)
-      if (!add_to_reference(reference_.spp * std::max(reference_.noise / goal - 1, 0.25))) return false;
-    return true;
+    for (;;) {
+      const double excess = reference_.noise / (smallest_noise() / 100) - 1;
+      if (excess <= 0) return true;
+      if (!add_to_reference(reference_.spp * std::max(excess, 0.25))) return false;
+    }
   }
 
   bool add_to_reference(double spp) {
@@ -193,7 +200,7 @@ class PictureSession {
     reference_.image =
         reference_.spp > 0 ? render::accumulate(reference_.image, reference_.spp, r.image, r.spp) : std::move(r.image);
     reference_.spp += r.spp;
-    reference_.noise = noise(reference_.image, reference_.relmse_floor);
+    reference_.noise = noise(reference_.image, reference_);
     return true;
   }
 

@@ -120,7 +120,7 @@ TEST_F(Converge, NoiselessScene_IsRejected) {
 }
 
 TEST_F(Converge, SceneWithAll_MeasuresEveryMethodUntilTimeRunsOut) {
-  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --all --max-spp 1048576 --time 0.5");
+  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 2x2 --all --max-spp 1048576 --time 0.1");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   for (const char* name : {"  bsdf independent ", "  hemisphere sobol ", "  light stratified ", "  mis sobol "})
     EXPECT_THAT(r.output, HasSubstr(name));

@@ -41,7 +41,7 @@ TEST(PictureErrors, Floor_IsATenthOfTheSquaredMean) { EXPECT_NEAR(relmse_floor_o
 TEST(PictureErrors, ErrorOfNoise_IsItsDeviation) {
   render::Image even = grey(2);
   even.variance.assign(even.pixels.size(), render::Spectrum::Constant(0.04f));
-  EXPECT_NEAR(noise(even, 0), 0.01, 1e-6) << "the variance over the squared mean";
+  EXPECT_NEAR(noise(even, {grey(2), 1000, 0, 0}), 0.01, 1e-6) << "the variance over the squared reference";
   const PictureSeries s = series(0, 0.1, 16);
   const mc::RmsError e = error_of(s, reference);
   EXPECT_NEAR(e.rms, 0.1, 2e-3);

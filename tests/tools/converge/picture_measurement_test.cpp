@@ -55,6 +55,18 @@ struct Lamp : support::ScratchTest {
 
 constexpr auto independent = render::PixelSampler::independent, sobol = render::PixelSampler::sobol;
 
+// A single picture of one pixel may state little noise by chance. The reference need not be better for it.
+TEST(PictureMeasurement, ErrorOfTheReferenceIsATenthOfAMethods) {
+  const render::SceneFile file = scene("book1-cover");
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const PictureOptions o{.width = 1, .height = 1, .max_spp = 16, .replicates = 64, .cost_rays = true, .seed = seed};
+    const PictureMeasurement p = measure_pictures(file, {method("mis", independent)}, o);
+    const double error = p.measurement.curves.front().errors.back().rms;
+    EXPECT_GT(p.reference_error, 0.03 * error) << seed;
+    EXPECT_LT(p.reference_error, 0.2 * error) << seed;
+  }
+}
+
 // Errors of independent samples fall as N^-1/2. A limit of two edges causes a bias, which is separated from noise.
 TEST(PictureMeasurement, SeparatesBiasFromNoise) {
   const render::SceneFile file = scene("cbox");
