@@ -3,7 +3,8 @@ add_library(mc_options INTERFACE)
 target_compile_features(mc_options INTERFACE cxx_std_20)
 target_compile_options(mc_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual -Woverloaded-virtual -Wextra-semi
-  # A fused multiply-add changes the last bit from one inlining to the next: we write std::fma where we mean it.
+  # A fused multiply-add changes the last bit from one inlining to the next: we write std::fma where we mean it. g++ 12
+  # still fuses the pair a c - b d, a d + b c; tests/layout/same_bits.sh finds it.
   -ffp-contract=off
   # Lets sqrt and floor become instructions; values stay IEEE.
   -fno-math-errno

@@ -90,8 +90,8 @@ template <Real S> class BeckmannVisibleNormals {
     const S least = std::numeric_limits<S>::epsilon() / 4;
     const S x = slope_with_tail(max(u[1], least));
     const S y = probit(u[0]) / S(sqrt(S(2)));
-    return Vec3<S>(alpha_x_ * (x * toward_.x() - y * toward_.y()), alpha_y_ * (x * toward_.y() + y * toward_.x()), S(1))
-        .normalized();
+    const Vec2<S> slope = x * toward_ + y * across_;
+    return Vec3<S>(alpha_x_ * slope.x(), alpha_y_ * slope.y(), S(1)).normalized();
   }
 
   S pdf(const Vec3<S>& m) const {
@@ -106,8 +106,8 @@ template <Real S> class BeckmannVisibleNormals {
   }
 
   Vec2<S> invert(const Vec3<S>& m) const {
-    const S a = m.x() / m.z() / alpha_x_, b = m.y() / m.z() / alpha_y_;
-    const S x = a * toward_.x() + b * toward_.y(), y = b * toward_.x() - a * toward_.y();
+    const Vec2<S> slope(m.x() / m.z() / alpha_x_, m.y() / m.z() / alpha_y_);
+    const S x = slope.dot(toward_), y = slope.dot(across_);
     return {clamp_to_unit<S>(S(erfc(S(-y))) / 2), clamp_to_unit<S>(tail(x) / visible_)};
   }
 
@@ -128,10 +128,11 @@ template <Real S> class BeckmannVisibleNormals {
       : normals_(normals), wo_(wo), alpha_x_(ax), alpha_y_(ay) {
     using std::sqrt;
     const Vec2<S> flat(ax * wo.x(), ay * wo.y());
-    const S across = flat.norm(), length = sqrt(S(flat.squaredNorm() + wo.z() * wo.z()));
+    const S side = flat.norm(), length = sqrt(S(flat.squaredNorm() + wo.z() * wo.z()));
     cos_ = wo.z() / length;
-    sin_ = across / length;
-    toward_ = across > 0 ? Vec2<S>(flat / across) : Vec2<S>(1, 0);
+    sin_ = side / length;
+    toward_ = side > 0 ? Vec2<S>(flat / side) : Vec2<S>(1, 0);
+    across_ = Vec2<S>(-toward_.y(), toward_.x());
     visible_ = tail(S(-cot()));
     area_ = length * visible_;
   }
@@ -168,7 +169,7 @@ template <Real S> class BeckmannVisibleNormals {
   BeckmannNormals<S> normals_;
   Vec3<S> wo_;
   S alpha_x_, alpha_y_;
-  Vec2<S> toward_;               ///< stretched wo in the plane, normalized
+  Vec2<S> toward_, across_;      ///< stretched wo in the plane, normalized; perpendicular to it
   S cos_, sin_, visible_, area_; ///< of the stretched wo; tail(-cot); visible_ times the length of the stretched wo
 };
 
