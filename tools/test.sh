@@ -2,7 +2,7 @@
 # Installs what is missing, refuses misformatted files, builds with warnings as errors, runs every test.
 # Usage: tools/test.sh [sanitize | thread | clang | portable | PRESET]   (default: ci)
 #   sanitize  address and undefined-behaviour sanitizers, assertions on
-#   thread    thread sanitizer, for the tests of code that starts threads
+#   thread    thread sanitizer, for the tests of code that starts threads; without tests of statistics
 #   clang     clang 14 instead of the system's compiler
 #   portable  only that carlo built for any machine of the architecture gives the same bits as one built for this one
 set -eu

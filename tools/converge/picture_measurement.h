@@ -92,7 +92,7 @@ struct PictureMeasurement {
 /// the finished levels and the methods with at least one.
 ///   theory    : N^-1/2 for independent samples, spent evenly, without a significant bias.
 ///   reference : mis+lt, sobol and the scene's longest path; at each level its samples grow until its error is a tenth
-///               of the smallest noise.
+///               of the smallest mean noise of a method.
 ///   memory    : all pictures of the last two levels, with their variances. A level that needs more than is allowed
 ///               ends the run.
 ///   throws    : Error for a black scene, no methods, fewer than 3 pictures, or max_spp below 16 or above 2^28.
