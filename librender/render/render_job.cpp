@@ -54,20 +54,34 @@ int sets_of(const RenderOptions& options) {
   return options.seconds || options.target_error ? point_sets : std::min(options.spp, point_sets);
 }
 
+// What takes memory in the films of a scene.
+struct FilmParts {
+  bool has_light_paths;
+  int splats; // Pixels that get splats of one sample; 0: no splats.
+};
+
+FilmParts film_parts(bool has_light_paths, const std::optional<SplatFilter>& splat) {
+  const int side = splat ? 2 * splat->reach() + 1 : 0;
+  return {has_light_paths, side * side};
+}
+
 // Bytes of a pixel: sums of each point set and of all samples, counts, and the image. A checkpoint takes the sums once
 // more, twice while it is written.
-double bytes_per_pixel(const RenderOptions& options, bool has_light_paths, bool has_splats) {
+double bytes_per_pixel(const RenderOptions& options, const FilmParts& parts) {
   constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(float), bytes_of_light_sums = sizeof(Eigen::Array3d);
   const double sets = sets_of(options);
   double film = sizeof(SampleSums) + sizeof(std::uint64_t) + sets * bytes_of_set;
-  if (has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
-  if (has_splats) film += sets * sizeof(double);
+  if (parts.has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
+  if (parts.splats > 0) film += sets * sizeof(double);
   const double copies = options.checkpoint ? 3 : 1;
   return copies * film + 2 * sizeof(std::uint32_t) + sets * sizeof(Spectrum);
 }
 
-double bytes_of(const ImageExtent& extent, const RenderOptions& options, bool has_light_paths, bool has_splats) {
-  return bytes_per_pixel(options, has_light_paths, has_splats) * extent.crop.width * extent.crop.height;
+// The film, and the rows that wait for one that comes before them.
+double bytes_of(const ImageExtent& extent, const RenderOptions& options, const FilmParts& parts) {
+  const double rows = std::min(double(extent.crop.height), double(mc::max_waiting_results(options.threads)));
+  return extent.crop.width * (extent.crop.height * bytes_per_pixel(options, parts) +
+                              rows * FilmBlock::bytes_per_pixel(sets_of(options), parts.splats));
 }
 
 // Least number of samples per pixel of a pilot.
@@ -149,8 +163,8 @@ const Scene& checked(const Scene& scene, const RenderOptions& options) {
 } // namespace
 
 double memory_needed(const Scene& scene, const RenderOptions& options) {
-  return bytes_of(extent_of(options), options, light_tracer_for(scene, options).has_value(),
-                  splat_filter_for(scene, options).has_value());
+  const bool has_light_paths = light_tracer_for(scene, options).has_value();
+  return bytes_of(extent_of(options), options, film_parts(has_light_paths, splat_filter_for(scene, options)));
 }
 
 RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
@@ -165,7 +179,7 @@ RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
 }
 
 Film RenderJob::checked_film() const {
-  mc::require_memory(bytes_of(extent_, options_, light_tracer_.has_value(), splat_.has_value()),
+  mc::require_memory(bytes_of(extent_, options_, film_parts(light_tracer_.has_value(), splat_)),
                      fmt::format("render: {}x{} pixels", extent_.crop.width, extent_.crop.height),
                      "fewer pixels or a part of them need less");
   return {extent_.crop.width, extent_.crop.height, sets_of(options_),

@@ -6,6 +6,12 @@
 
 namespace mc {
 
+namespace {
+
+constexpr std::size_t ahead_of_thread = 8; // units
+
+} // namespace
+
 namespace detail {
 
 bool UnitQueue::begin_stage() {
@@ -15,10 +21,10 @@ bool UnitQueue::begin_stage() {
   return units_ > 0;
 }
 
-void UnitQueue::open(std::size_t workers) {
+void UnitQueue::open(std::size_t most_ahead) {
   const std::lock_guard lock(mutex_);
   next_ = absorbed_;
-  workers_ = workers;
+  most_ahead_ = most_ahead;
 }
 
 void UnitQueue::close() {
@@ -37,7 +43,7 @@ bool UnitQueue::find_next() {
 std::optional<std::size_t> UnitQueue::take() {
   std::unique_lock lock(mutex_);
   while (find_next()) {
-    if (next_ < absorbed_ + max_ahead * workers_) return next_++;
+    if (next_ < absorbed_ + most_ahead_) return next_++;
     absorbed_more_.wait(lock);
   }
   return {};
@@ -45,7 +51,7 @@ std::optional<std::size_t> UnitQueue::take() {
 
 std::optional<std::size_t> UnitQueue::try_take() {
   const std::lock_guard lock(mutex_);
-  const bool may_take = find_next() && next_ < absorbed_ + max_ahead * workers_;
+  const bool may_take = find_next() && next_ < absorbed_ + most_ahead_;
   return may_take ? std::optional(next_++) : std::nullopt;
 }
 
@@ -123,10 +129,14 @@ int threads_of(const RunOptions& options) { return options.threads != 0 ? option
 
 } // namespace detail
 
+std::size_t max_waiting_results(int threads) {
+  return ahead_of_thread * static_cast<std::size_t>(detail::threads_of({.threads = threads}));
+}
+
 bool run_on_threads(const AnyJob& job, const RunOptions& options) {
   return detail::run_stages(job, options, [&](detail::UnitQueue& queue) {
     const std::size_t workers = std::min(static_cast<std::size_t>(detail::threads_of(options)), queue.left());
-    queue.open(workers);
+    queue.open(ahead_of_thread * workers);
     detail::work_on_threads(job, options.threads, workers, queue);
   });
 }

@@ -60,6 +60,10 @@ struct RunOptions {
   std::string name = "job";                  ///< Tells the jobs of a program apart; equal names are counted.
 };
 
+/// Largest number of results that wait in memory for the result of an earlier unit, with this RunOptions::threads in
+/// one process.
+std::size_t max_waiting_results(int threads);
+
 /// Computes the units on threads of this process.
 bool run_on_threads(const AnyJob& job, const RunOptions& options);
 
@@ -81,8 +85,11 @@ class UnitQueue {
   bool is_cut_short() const { return !job_.may_start(); }
   /// Whether the run is cancelled, or a worker gave up.
   bool is_cancelled() const { return gave_up_ || (options_.cancel && options_.cancel->load()); }
-  /// Opens the stage to this number of workers, who take its units in order.
-  void open(std::size_t workers);
+  /// Opens the stage to workers, who take its units in order.
+  ///   most_ahead : largest number of units given out from the first unit that is not absorbed on. It bounds the
+  ///                results that wait in memory. No worker should wait for a unit unless that takes as long as many
+  ///                others.
+  void open(std::size_t most_ahead);
   /// Gives out no further unit.
   void close();
 
@@ -105,10 +112,6 @@ class UnitQueue {
   void read(ArchiveReader& a);
 
  private:
-  // Largest number of units of a worker from the first unit that is not absorbed. It bounds the results that wait in
-  // memory. It is so large that no worker waits for a unit unless that takes as long as many others.
-  static constexpr std::size_t max_ahead = 64;
-
   void absorb_results();
   bool find_next();
 
@@ -119,7 +122,7 @@ class UnitQueue {
   std::size_t units_ = 0,                    ///< of this stage
       absorbed_ = 0,                         ///< the first units, whose results the job has
       next_ = 0,                             ///< the first unit that is not started
-      workers_ = 1;                          ///< of this stage
+      most_ahead_ = 1;                       ///< of open()
   std::map<std::size_t, AnyResult> results_; ///< of units behind one that is still computed
   std::atomic<bool> gave_up_ = false, has_failed_ = false;
 };

@@ -15,6 +15,11 @@ class FilmBlock {
   /// An empty block for a film of this size and number of point sets.
   FilmBlock(int width, int height, int sets) : width_(width), height_(height), sets_(sets) {}
 
+  /// Memory of a block with the samples of one pixel, each set of which has this number of splats [bytes].
+  static double bytes_per_pixel(int sets, int splats) {
+    return sets * (double(sizeof(SetSum)) + splats * double(sizeof(Splat))) + double(sizeof(Record));
+  }
+
   /// Number of point sets of each pixel.
   int sets() const { return sets_; }
   /// Whether the film contains the pixel (x, y).
@@ -51,7 +56,7 @@ class FilmBlock {
   };
   struct Splat {
     int x, y, set;
-    Eigen::Array4d sum;
+    Eigen::Array<double, 4, 1, Eigen::DontAlign> sum; // smaller than an Array4d
     template <class Archive> void archive(Archive& a) { a(x, y, set, sum); }
   };
   struct LightSplat {

@@ -78,4 +78,24 @@ TEST(FilmBlock, ContainsThePixelsOfItsFilm) {
   EXPECT_FALSE(block.contains(3, 0) || block.contains(0, 2) || block.contains(-1, 0) || block.contains(0, -1));
 }
 
+// The archive has the same values without padding.
+TEST(FilmBlock, MemoryOfAPixel_IsAsStated) {
+  for (const int splats : {0, 9, 81}) {
+    constexpr int pixels = 1000;
+    FilmBlock block(pixels, 1, 2);
+    for (int x = 0; x < pixels; ++x) {
+      for (int set = 0; set < 2; ++set) {
+        block.add(x, 0, set, Eigen::Array3d::Ones(), 1);
+        for (int k = 0; k < splats; ++k) block.add_splat(x, 0, set, Eigen::Array4d::Ones());
+      }
+      block.record_samples(x, 0, {}, 1);
+    }
+    mc::ArchiveWriter bytes;
+    bytes(block);
+    const double stated = pixels * FilmBlock::bytes_per_pixel(2, splats);
+    EXPECT_LE(double(bytes.text().size()), stated) << splats;
+    EXPECT_GE(double(bytes.text().size()), 0.85 * stated) << splats;
+  }
+}
+
 } // namespace
