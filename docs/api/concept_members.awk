@@ -41,12 +41,15 @@ BEGIN {
   doc["is_spherical"] = "Whether the shape is a sphere or a part of one.";
   doc["box"] = "Axis-aligned bounds.";
   doc["uv"] = "Texture coordinates.";
+  doc["uv_scale"] = "Root of the area in texture coordinates over the area on the surface, around the point.";
   doc["has_uv"] = "Whether the shape has texture coordinates.";
   doc["discard_uvs"] = "Frees the texture coordinates, where no texture needs them.";
   doc["discard_sampling_table"] = "Frees the tables of area sampling, where the shape emits no light.";
   doc["sample_area"] = "Samples a surface point uniformly by area.";
   doc["sample_direction"] = "Samples a direction from a reference point to the shape; none where it is not visible.";
   doc["projected_solid_angle_bound"] = "Upper bound of the projected solid angle of the shape at a reference point [sr].";
+  doc["is_filtered"] = "Whether the colour depends on the footprint.";
+  doc["least"] = "Smallest value of any channel.";
   doc["require_reflectance"] = "Throws Error that names the place, unless all values lie in [0, 1].";
 }
 

@@ -91,8 +91,8 @@ template <class B> struct ShadingPoint {
   ShadingPoint(const B& b, const SurfacePoint& p, const Vec3& d) : bsdf(b), point(p), frame(p, d) {
     wo = frame.to_local(d);
   }
-  /// The vertex for a path that arrives from wi and goes on to wo.
   struct Reverse;
+  /// The vertex for a path that arrives from wi and goes on to wo.
   Reverse reverse(const Vec3& wi) const;
 
   /// BSDF times |cos wi|, delta lobes excluded.
