@@ -1,5 +1,4 @@
 #include <mc/core/error.h>
-#include <mc/core/types.h>
 #include <mc/estimate/control_variate.h>
 
 #include <algorithm>
@@ -11,10 +10,6 @@
 namespace mc {
 
 namespace {
-
-struct Eigenvectors {
-  std::vector<double> values, vectors; ///< Eigenvectors: one per row.
-};
 
 // Rotates axes i and j of the symmetric matrix a, and rows i and j of v, so that a(i, j) becomes 0.
 void rotate(std::vector<double>& a, std::vector<double>& v, std::size_t n, std::size_t i, std::size_t j) {
@@ -31,10 +26,11 @@ void rotate(std::vector<double>& a, std::vector<double>& v, std::size_t n, std::
   for (std::size_t k = 0; k < n; ++k) turn_pair(v[i * n + k], v[j * n + k]);
 }
 
-// Eigenvectors of a correlation matrix by cyclic Jacobi, with an absolute error of a few epsilon. A few sweeps suffice
-// for any size.
-Eigenvectors symmetric_eigenvectors(std::vector<double> a, std::size_t n) {
-  std::vector<double> v(n * n);
+// Shortest x with minimal |a x - b| for a correlation matrix a. Treats eigenvalues up to `noise` times the largest as
+// 0. Finds eigenvectors by cyclic Jacobi, with an absolute error of a few epsilon. A few sweeps suffice for any size.
+std::vector<double> shortest_solution(std::vector<double> a, const std::vector<double>& b, double noise) {
+  const std::size_t n = b.size();
+  std::vector<double> v(n * n); // an eigenvector per row
   for (std::size_t i = 0; i < n; ++i) v[i * n + i] = 1;
   bool turned = true;
   for (int sweep = 0; turned && sweep < 50; ++sweep) {
@@ -46,23 +42,14 @@ Eigenvectors symmetric_eigenvectors(std::vector<double> a, std::size_t n) {
         turned = true;
       }
   }
-  std::vector<double> values(n);
-  for (std::size_t i = 0; i < n; ++i) values[i] = a[i * n + i];
-  return {std::move(values), std::move(v)};
-}
-
-// Shortest x with minimal |a x - b| for a correlation matrix a. Treats eigenvalues up to `noise` times the largest as
-// 0.
-std::vector<double> shortest_solution(const std::vector<double>& a, const std::vector<double>& b, double noise) {
-  const std::size_t n = b.size();
-  const Eigenvectors eigen = symmetric_eigenvectors(a, n);
-  const double least = noise * *std::max_element(eigen.values.begin(), eigen.values.end());
+  double largest = a[0]; // eigenvalue
+  for (std::size_t i = 1; i < n; ++i) largest = std::max(largest, a[i * n + i]);
   std::vector<double> x(n);
   for (std::size_t i = 0; i < n; ++i) {
-    if (eigen.values[i] <= least) continue;
+    if (a[i * n + i] <= noise * largest) continue;
     double along = 0;
-    for (std::size_t k = 0; k < n; ++k) along += eigen.vectors[i * n + k] * b[k];
-    for (std::size_t k = 0; k < n; ++k) x[k] += along / eigen.values[i] * eigen.vectors[i * n + k];
+    for (std::size_t k = 0; k < n; ++k) along += v[i * n + k] * b[k];
+    for (std::size_t k = 0; k < n; ++k) x[k] += along / a[i * n + i] * v[i * n + k];
   }
   return x;
 }

@@ -1,7 +1,6 @@
 #include <mc/core/error.h>
 #include <mc/estimate/integrate.h>
 
-#include <cmath>
 #include <ostream>
 
 namespace mc {

@@ -4,7 +4,6 @@
 #include <mc/sampler/independent.h>
 #include <mc/sampler/sobol.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <variant>

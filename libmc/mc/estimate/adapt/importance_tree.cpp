@@ -1,5 +1,3 @@
-#include <mc/core/error.h>
-#include <mc/core/types.h>
 #include <mc/estimate/adapt/importance_tree.h>
 #include <mc/random/hash.h>
 

@@ -9,9 +9,7 @@ namespace mc {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
-}
 
-namespace {
 // Shape by probability-weighted moments [HoskingWallis87]. Cheap, and too small where it exceeds 1/2.
 double shape_by_moments(std::span<const double> excesses) {
   const auto k = static_cast<double>(excesses.size());

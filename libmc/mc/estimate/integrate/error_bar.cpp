@@ -16,34 +16,19 @@
 namespace mc::detail {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double least_error = std::numeric_limits<double>::denorm_min(); // a mean that underflows need not be 0
 
-// Mean and standard deviation of numbers of any size.
-struct Spread {
-  double mean = 0, deviation = 0, largest = 0;
-};
-Spread spread_of(std::span<const double> numbers) {
-  Spread s;
-  for (const double x : numbers) s.largest = std::max(s.largest, std::abs(x));
-  const int exponent = s.largest > 0 ? std::ilogb(s.largest) : 0;
-  Moments m;
-  for (const double x : numbers) m.add(std::ldexp(x, -exponent));
-  s.mean = std::ldexp(m.mean(), exponent);
-  s.deviation = std::ldexp(std::sqrt(m.variance()), exponent);
-  return s;
-}
-
-// Quantile of Student's t that is exceeded with probability alpha; of the normal distribution without degrees of
-// freedom.
-double quantile_of(double dof, double alpha) {
-  return dof > 0 ? quantile(complement(boost::math::students_t(dof), alpha))
-                 : quantile(complement(boost::math::normal(), alpha));
+// The largest size of numbers.
+double largest_of(std::span<const double> numbers) {
+  double largest = 0;
+  for (const double x : numbers) largest = std::max(largest, std::abs(x));
+  return largest;
 }
 
 Estimate::Interval interval_at(const Mean& m, double confidence) {
-  const double alpha = 0.5 * (1 - confidence), t = quantile_of(m.dof, alpha), tail = tail_extension(alpha);
+  const double alpha = 0.5 * (1 - confidence), tail = tail_extension(alpha);
+  const double t = m.dof > 0 ? student_quantile(2 * alpha, m.dof) : quantile(complement(boost::math::normal(), alpha));
   const double shift = skewness_shift(m.skew, m.error, t);
   return {m.value - t * m.error + std::min(shift, 0.0) - tail * m.tail[0],
           m.value + t * m.error + std::max(shift, 0.0) + tail * m.tail[1]};
@@ -79,9 +64,9 @@ TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t) 
 }
 
 namespace {
-// Shape of the heavier tail that all of the last lengths show; -infinity before there are enough of them.
+// Shape of the heavier tail that all of the last lengths show; -infinity<double> before there are enough of them.
 double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t) {
-  double heavier = -infinity;
+  double heavier = -infinity<double>;
   if (shapes.size() < t.persistent) return heavier;
   for (std::size_t side = 0; side < 2; ++side) {
     std::vector<double> last;
@@ -127,11 +112,15 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
                         SpreadHistory& history, const Tuning& t) {
   const Extremes& extremes = values.averaged;
   const double replicates = static_cast<double>(means.size()), count = static_cast<double>(extremes.count());
-  const Spread s = spread_of(means);
+  const double largest = largest_of(means);
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0; // numbers may be of any size
+  Moments scaled;
+  for (const double x : means) scaled.add(std::ldexp(x, -exponent));
+  const double spread = std::ldexp(std::sqrt(scaled.variance()), exponent);
   // Where values of both signs cancel, rounding is relative to their size.
-  const double mean_size = count > 0 ? extremes.sum_of_sizes() / count : 0, scale = std::max(s.largest, mean_size);
+  const double mean_size = count > 0 ? extremes.sum_of_sizes() / count : 0, scale = std::max(largest, mean_size);
   history.points.push_back(points);
-  history.spreads.push_back(s.deviation > rounding * scale ? s.deviation : 0.0);
+  history.spreads.push_back(spread > rounding * scale ? spread : 0.0);
   const double deviation = pooled_spread(history.points, history.spreads, t);
   const TailFindings tails = tails_of(values, deviation / std::sqrt(replicates), t);
   history.shapes.push_back(tails.shape);
@@ -141,10 +130,10 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
     unsampled[side] = pooled_contribution(history.points, history.contributions[side], tails.shape[side], t);
   }
 
-  Mean m{.value = s.mean, .dof = replicates - 1};
+  Mean m{.value = std::ldexp(scaled.mean(), exponent), .dof = replicates - 1};
   m.bar = judge(extremes, unsampled, history.shapes, dim, t);
   const double shape = std::max(tails.shape[0], tails.shape[1]);
-  m.tail_index = shape > 0 ? 1 / shape : infinity;
+  m.tail_index = shape > 0 ? 1 / shape : infinity<double>;
   if (m.bar == ErrorBar::all_zero) return m;
   m.constant = is_constant(extremes);
   m.tail = unsampled;
@@ -159,7 +148,7 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
 }
 
 Estimate::Interval interval(const Mean& m, double confidence) {
-  if (m.bar != ErrorBar::known) return {-infinity, infinity};
+  if (m.bar != ErrorBar::known) return {-infinity<double>, infinity<double>};
   return interval_at(m, confidence);
 }
 
@@ -170,7 +159,7 @@ double half_width(const Mean& m) {
 }
 
 Estimate estimate(const Mean& m, std::uint64_t calls) {
-  return {m.value, m.bar == ErrorBar::known ? half_width(m) : infinity, m.dof, calls};
+  return {m.value, m.bar == ErrorBar::known ? half_width(m) : infinity<double>, m.dof, calls};
 }
 
 Mean combine_independent(const Mean& a, const Mean& b, double share) {

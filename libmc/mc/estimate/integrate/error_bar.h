@@ -6,7 +6,6 @@
 #include <mc/estimate/integrate/corrections/tuning.h>
 
 #include <array>
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>

@@ -1,11 +1,18 @@
+#include <mc/core/types.h>
 #include <mc/estimate/integrate/run.h>
 #include <mc/random/hash.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace mc::detail {
+
+void Round::compare(const Means& answer) {
+  for (std::size_t k = 0; k < answer.size(); ++k) {
+    const auto z = normal_deviate(means[k], answer[k]);
+    chi2.push_back(z ? sqr(*z) : std::numeric_limits<double>::quiet_NaN());
+  }
+}
 
 std::vector<PointSet> Run::sobol_sets(Stream stream, std::uint64_t round, std::uint32_t begin,
                                       std::uint32_t end) const {
@@ -28,7 +35,7 @@ double Run::excess(const Means& means) const {
   for (std::size_t k = 0; k < primary(); ++k) {
     const double wanted = wanted_error(means[k]);
     const double error = estimate(means[k], evaluator.calls).std_error;
-    most = std::max(most, wanted > 0 ? error / wanted : std::numeric_limits<double>::infinity());
+    most = std::max(most, wanted > 0 ? error / wanted : infinity<double>);
   }
   return most;
 }

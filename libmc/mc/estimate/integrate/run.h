@@ -36,6 +36,9 @@ struct Round {
   Means means;                ///< Mean of each output.
   bool independent = false;   ///< Independent of the answer, so that the two can be compared.
   std::vector<double> chi2{}; ///< Squared normal deviate from the answer, per output.
+
+  /// Computes chi2 for an answer that is independent of the round.
+  void compare(const Means& answer);
 };
 
 /// State of one call of integrate().

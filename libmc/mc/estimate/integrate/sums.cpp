@@ -36,7 +36,6 @@ void ScaledMoments::merge(const ScaledMoments& other) {
 
 double ScaledMoments::mean() const { return std::ldexp(moments_.mean(), exponent_); }
 double ScaledMoments::std_error() const { return std::ldexp(moments_.std_error(), exponent_); }
-double ScaledMoments::std_deviation() const { return std::ldexp(std::sqrt(moments_.variance()), exponent_); }
 
 void Sums::zero_infinite_values(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first) {
   for (std::size_t i = 0; i < all_values.size(); ++i) {

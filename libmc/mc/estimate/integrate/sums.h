@@ -25,7 +25,6 @@ class ScaledMoments {
   double mean() const;
   /// Standard error of the mean.
   double std_error() const;
-  double std_deviation() const; ///< Standard deviation of the values.
   /// Moments in units of the power of two.
   const Moments& moments() const { return moments_; }
   /// The moments, see mc/run/archive.h.

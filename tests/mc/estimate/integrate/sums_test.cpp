@@ -27,7 +27,6 @@ TEST(ScaledMoments, ErrorIsScaleInvariant) {
     const ScaledMoments m = moments(1, power);
     EXPECT_EQ(m.mean(), std::ldexp(plain.mean(), power));
     EXPECT_EQ(m.std_error(), std::ldexp(plain.std_error(), power));
-    EXPECT_EQ(m.std_deviation(), std::ldexp(plain.std_deviation(), power));
   }
 }
 

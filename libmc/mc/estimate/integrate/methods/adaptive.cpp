@@ -7,13 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace mc::detail {
 
 namespace {
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t first_attempt = 4096;     // calls before the first density is learned
 constexpr double worth_an_attempt = 4;            // times the calls so far that must be missing
 constexpr double early = 64;                      // times the calls so far: while more are missing, the rate of
@@ -42,7 +40,7 @@ struct Forecast {
   double needed(const std::vector<double>& wanted) const {
     double most = calls;
     for (std::size_t k = 0; k < errors.size(); ++k)
-      most = std::max(most, calls * std::pow(wanted[k] > 0 ? errors[k] / wanted[k] : infinity, 1 / rate));
+      most = std::max(most, calls * std::pow(wanted[k] > 0 ? errors[k] / wanted[k] : infinity<double>, 1 / rate));
     return most;
   }
   double log_error_after(double more) const {
@@ -67,7 +65,7 @@ Forecast forecast(const Run& run, const Replicates& r) {
     const Mean& m = r.means()[k];
     const bool blind =
         m.bar == ErrorBar::all_zero || m.bar == ErrorBar::undersampled || m.bar == ErrorBar::too_few_points;
-    f.errors.push_back(blind ? infinity : half_width(m));
+    f.errors.push_back(blind ? infinity<double> : half_width(m));
   }
   return f;
 }
@@ -104,10 +102,6 @@ Proposal proposal_of(AdaptedDensity&& density, const Means& means) {
   return p;
 }
 
-AdaptedDensity density_of(const Run& run, const Replicates& r) {
-  return r.proposal().density ? *r.proposal().density : AdaptedDensity{ImportanceGrid(run.evaluator.dim)};
-}
-
 // A density to start anew with. If forced it is learned from all points, else from half of them, and it must pay on the
 // other half. automatic tries a tree where few points dominated the sum.
 std::optional<Proposal> better_proposal(const Run& run, const Replicates& r, const Record& record, Method method,
@@ -115,11 +109,12 @@ std::optional<Proposal> better_proposal(const Run& run, const Replicates& r, con
   const auto samples = [&](Samples::Half half) { return Samples{record, run.evaluator.dim, run.primary(), half}; };
   const bool must_grow = method == Method::tree, may_grow = must_grow || (method == Method::automatic && hard);
   const Samples::Half learned = forced && must_grow == may_grow ? Samples::Half::both : Samples::Half::first;
-  const AdaptedDensity from = density_of(run, r);
+  const AdaptedDensity from =
+      r.proposal().density ? *r.proposal().density : AdaptedDensity{ImportanceGrid(run.evaluator.dim)};
   const Forecast now = forecast(run, r);
   const std::vector<double> wanted = wanted_errors(run, r.means());
   std::optional<Proposal> best;
-  double least = infinity;
+  double least = infinity<double>;
   for (const bool grow_tree : {false, true}) {
     if (grow_tree ? !may_grow : must_grow) continue;
     Proposal next = proposal_of(adapted(from, samples(learned), grow_tree), r.means());
@@ -163,17 +158,15 @@ Outcome run_adaptive(Run& run, Method wanted) {
   const std::uint32_t count = run.options().replicates;
   const bool stays = wanted == Method::automatic; // with uniform points, where no density pays
   std::uint64_t round = 0, attempt = std::min(first_attempt, run.options().max_calls / 4);
-  double last = infinity; // error of the density before, for one call
-  bool hard = false;      // few points dominated the sum
+  double last = infinity<double>; // error of the density before, for one call
+  bool hard = false;              // few points dominated the sum
   MixtureRecord points;
   std::optional<Replicates> fallback; // through the density before, until as many calls show which is better
   const auto replicates = [&](Proposal proposal) {
     const Stream stream = stream_of(proposal);
     return Replicates(run, stream, round++, count, std::move(proposal));
   };
-  Proposal first;
-  if (run.options().density) first = {run.options().density, {}};
-  Replicates r = replicates(std::move(first));
+  Replicates r = replicates({.density = run.options().density});
   const auto method = [&] { return stays ? method_of(r) : wanted; };
   while (extend_or_add(run, r, 2 * r.calls() >= attempt)) { // the points before an attempt are recorded
     run.record(method(), r.means());

@@ -47,17 +47,6 @@ std::vector<IntegrateRound> rounds_of(const Run& run, std::size_t output) {
   return all;
 }
 
-// Compares the rounds that are independent of the answer with it.
-void compare_with_answer(Run& run, const Outcome& outcome) {
-  for (detail::Round& round : run.rounds) {
-    if (!round.independent) continue;
-    for (std::size_t k = 0; k < run.evaluator.outputs; ++k) {
-      const auto z = detail::normal_deviate(round.means[k], outcome.means[k]);
-      round.chi2.push_back(z ? sqr(*z) : std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-}
-
 Integral integral_of(const Run& run, const Outcome& outcome, std::size_t k) {
   Integral r;
   const detail::Mean& mean = outcome.means[k];
@@ -102,7 +91,8 @@ VectorIntegral detail::integrate(const Integrand& f, int outputs, int dim, const
     outcome.stop = StopReason::cancelled;
   }
   if (outcome.stop == StopReason::max_calls && run.excess(outcome.means) <= 1) outcome.stop = StopReason::converged;
-  compare_with_answer(run, outcome);
+  for (detail::Round& round : run.rounds)
+    if (round.independent) round.compare(outcome.means);
   VectorIntegral result{.outputs = {}, .correlations = outcome.correlations};
   for (std::size_t k = 0; k < run.evaluator.outputs; ++k) result.outputs.push_back(integral_of(run, outcome, k));
   return result;

@@ -11,11 +11,10 @@ namespace mc::detail {
 
 /// A row of the table: what users choose by name.
 struct MethodRow {
-  Method method;                ///< Value of IntegrateOptions::method.
-  std::string_view name;        ///< Name in options and results.
-  std::string_view description; ///< One sentence for help texts.
-  bool adaptive;                ///< Learns a density.
-  Outcome (*run)(Run& run);     ///< Integrates.
+  Method method;            ///< Value of IntegrateOptions::method.
+  std::string_view name;    ///< Name in options and results.
+  bool adaptive;            ///< Learns a density.
+  Outcome (*run)(Run& run); ///< Integrates.
 };
 
 /// All methods, in the order of Method.

@@ -1,4 +1,3 @@
-#include <mc/core/types.h>
 #include <mc/estimate/integrate/corrections/skewness.h>
 #include <mc/estimate/integrate/methods/methods.h>
 

@@ -3,7 +3,6 @@
 #include <mc/random/hash.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace mc::detail {
 
@@ -11,20 +10,15 @@ namespace {
 constexpr std::uint64_t first_points = 64; // of each replicate in the first round
 
 // A round of jittered points in every replicate.
-struct JitteredRound {
-  Means means;
-  Correlations correlated;
-};
-
-JitteredRound jittered_round(Run& run, std::uint64_t points, std::uint64_t round, std::vector<SampledValues>& sampled,
-                             std::vector<SpreadHistory>& histories, std::vector<std::uint64_t>& infinite) {
+Outcome jittered_round(Run& run, std::uint64_t points, std::uint64_t round, std::vector<SampledValues>& sampled,
+                       std::vector<SpreadHistory>& histories, std::vector<std::uint64_t>& infinite) {
   std::vector<PointSet> sets;
   for (std::uint32_t r = 0; r < run.options().replicates; ++r)
     sets.emplace_back(JitteredBoxes{hash(run.options().seed, static_cast<std::uint64_t>(Stream::stratified), round, r),
                                     static_cast<std::uint32_t>(points)});
   const std::vector<Sums> sums = run.evaluator.evaluate(sets, 0, points, {}, {}, sampled);
   std::vector<std::vector<double>> values(run.evaluator.outputs);
-  JitteredRound result;
+  Outcome result{.means = {}, .method = Method::stratified};
   for (std::size_t k = 0; k < values.size(); ++k) {
     for (const Sums& s : sums) {
       sampled[k].merge(s.sampled[k]);
@@ -35,16 +29,8 @@ JitteredRound jittered_round(Run& run, std::uint64_t points, std::uint64_t round
                                               histories[k], run.tuning));
     if (infinite[k] > 0) result.means.back().bar = ErrorBar::infinite_variance;
   }
-  result.correlated = correlations(values);
+  result.correlations = correlations(values);
   return result;
-}
-
-// Adds to the round how far its means are from those of the rounds before, which are independent.
-void compare(Round& round, const Means& before) {
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    const auto z = normal_deviate(round.means[k], before[k]);
-    round.chi2.push_back(z ? sqr(*z) : std::numeric_limits<double>::quiet_NaN());
-  }
 }
 } // namespace
 
@@ -60,16 +46,16 @@ Outcome run_stratified(Run& run) {
   const std::uint64_t all = run.evaluator.remaining() / replicates; // too few for two rounds go into one
   for (std::uint64_t points = all < 3 * first_points ? std::max<std::uint64_t>(all, 1) : first_points, round = 0;;
        ++round) {
-    JitteredRound now = jittered_round(run, points, round, sampled, histories, out.infinite);
+    Outcome now = jittered_round(run, points, round, sampled, histories, out.infinite);
     run.record(Method::stratified, now.means);
     const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
     weight += square;
     if (round == 0) {
       out.means = now.means;
-      out.correlations = now.correlated;
+      out.correlations = now.correlations;
     } else {
-      compare(run.rounds.back(), out.means);
-      out.correlations = combine_independent(out.correlations, out.means, now.correlated, now.means, share);
+      run.rounds.back().compare(out.means);
+      out.correlations = combine_independent(out.correlations, out.means, now.correlations, now.means, share);
       for (std::size_t k = 0; k < outputs; ++k) {
         // Rounds of zeros have no error; it is that of half as many points once another value is known.
         if (out.means[k].bar == ErrorBar::all_zero) out.means[k].error = 2 * now.means[k].error;
