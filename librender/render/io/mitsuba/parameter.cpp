@@ -81,9 +81,7 @@ void Declaration::require_dialect(const XmlElement& given, Context& context) con
 
 Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "number", unit, {"float", "integer"}, meaning},
-          [](const XmlElement& e, Context&) { return number_of(e); },
-          {},
-          {}};
+          [](const XmlElement& e, Context&) { return number_of(e); }};
 }
 Parameter<double> number(const std::string& name, const std::string& unit, double fallback,
                          const std::string& meaning) {
@@ -91,37 +89,31 @@ Parameter<double> number(const std::string& name, const std::string& unit, doubl
 }
 
 Parameter<int> integer(const std::string& name, const std::string& meaning, int fallback) {
-  const Parameter<int> p{
-      {name, "integer", "", {"integer"}, meaning}, [](const XmlElement& e, Context&) { return integer_of(e); }, {}, {}};
+  const Parameter<int> p{{name, "integer", "", {"integer"}, meaning},
+                         [](const XmlElement& e, Context&) { return integer_of(e); }};
   return p.with_default(fallback, fmt::format("{}", fallback));
 }
 
 Parameter<bool> boolean(const std::string& name, const std::string& meaning, bool fallback) {
-  const Parameter<bool> p{
-      {name, "boolean", "", {"boolean"}, meaning}, [](const XmlElement& e, Context&) { return boolean_of(e); }, {}, {}};
+  const Parameter<bool> p{{name, "boolean", "", {"boolean"}, meaning},
+                          [](const XmlElement& e, Context&) { return boolean_of(e); }};
   return p.with_default(fallback, fmt::format("{}", fallback));
 }
 
 Parameter<std::string> file(const std::string& name, const std::string& meaning) {
   return {{name, "file", "", {"string"}, meaning},
-          [](const XmlElement& e, Context& context) { return context.file(e.attribute("value")); },
-          {},
-          {}};
+          [](const XmlElement& e, Context& context) { return context.file(e.attribute("value")); }};
 }
 
 Parameter<Vec3d> point(const std::string& name, const std::string& meaning, const Vec3d& fallback) {
   const Parameter<Vec3d> p{{name, "point", "", {"point", "vector"}, meaning},
-                           [](const XmlElement& e, Context&) { return vector_of(e); },
-                           {},
-                           {}};
+                           [](const XmlElement& e, Context&) { return vector_of(e); }};
   return p.with_default(fallback, text_of(fallback));
 }
 
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "colour", unit, {"rgb", "srgb", "spectrum", "float"}, meaning},
-          [](const XmlElement& e, Context& context) { return color_of(e, context.extrapolation()); },
-          {},
-          {}};
+          [](const XmlElement& e, Context& context) { return color_of(e, context.extrapolation()); }};
 }
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning,
                           const Spectrum& fallback) {
@@ -142,7 +134,7 @@ Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std
 }
 
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning) {
-  return {{name, "file", "", {"string"}, meaning}, picture_of, {}, {}};
+  return {{name, "file", "", {"string"}, meaning}, picture_of};
 }
 
 Parameter<PictureSource> encoded_picture(const std::string& name, const std::string& meaning) {
@@ -151,23 +143,19 @@ Parameter<PictureSource> encoded_picture(const std::string& name, const std::str
       return context.picture(path, transfer);
     };
   };
-  return {{name, "file", "", {"string"}, meaning}, source, {}, {}};
+  return {{name, "file", "", {"string"}, meaning}, source};
 }
 
 Parameter<Transform> transform(const std::string& name, const std::string& meaning) {
   const Parameter<Transform> p{{name, "transform", "", {"transform"}, meaning},
-                               [](const XmlElement& e, Context&) { return transform_of(e); },
-                               {},
-                               {}};
+                               [](const XmlElement& e, Context&) { return transform_of(e); }};
   return p.with_default({}, "identity");
 }
 
 Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
                               const std::string& meaning) {
   const Parameter<std::size_t> p{{name, fmt::format("one of {}", fmt::join(words, ", ")), "", {"string"}, meaning},
-                                 [words](const XmlElement& e, Context&) { return word_of(e, words); },
-                                 {},
-                                 {}};
+                                 [words](const XmlElement& e, Context&) { return word_of(e, words); }};
   return p;
 }
 Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,

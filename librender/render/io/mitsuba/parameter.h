@@ -53,7 +53,7 @@ inline Transform in_scene(Transform t, const Context& context) {
 template <class T> struct Parameter {
   Declaration declared;                                              ///< Declaration of the parameter.
   std::function<T(const XmlElement& given, Context& context)> parse; ///< Reads the value from an element.
-  std::optional<T> fallback, lajolla_fallback;                       ///< Values if the parameter is omitted.
+  std::optional<T> fallback = {}, lajolla_fallback = {};             ///< Values if the parameter is omitted.
 
   /// The parameter with a fallback. `text` describes the fallback in the reference.
   Parameter with_default(T value, const std::string& text) const {
@@ -116,7 +116,7 @@ Parameter<Spectrum> color(const std::string& name, const std::string& unit, cons
 Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback);
 /// The parameter, or a texture in its place.
 template <class T> Parameter<std::variant<T, Texture>> or_texture(const Parameter<T>& p) {
-  Parameter<std::variant<T, Texture>> either{p.declared, {}, {}, {}};
+  Parameter<std::variant<T, Texture>> either{p.declared, {}};
   either.declared.type += " or texture";
   either.declared.tags.insert(either.declared.tags.end(), {"texture", "ref"});
   either.parse = [parse = p.parse](const XmlElement& e, Context& context) -> std::variant<T, Texture> {
@@ -150,7 +150,7 @@ Parameter<std::size_t> choice(const std::string& name, const std::vector<std::st
 
 /// The parameter without a fallback value: nullopt if it is omitted.
 template <class T> Parameter<std::optional<T>> optional(const Parameter<T>& p) {
-  return Parameter<std::optional<T>>{p.declared, p.parse, {}, {}}.with_default(std::nullopt, "none");
+  return Parameter<std::optional<T>>{p.declared, p.parse}.with_default(std::nullopt, "none");
 }
 
 /// A parameter accepted without effect, because it cannot change the image.

@@ -78,12 +78,9 @@ template <class T> T read_plugin(const Plugins<T>& rows, const XmlElement& e, Co
 
 /// A nested plugin, or a <ref> to one, as a parameter of another plugin: <film> in <sensor>.
 template <class T> Parameter<T> nested(std::string tag, std::string meaning, const Plugins<T>& (*rows)()) {
-  return {{"<" + tag + ">", tag, "", {tag}, std::move(meaning)},
-          [rows, tag](const XmlElement& e, Context& context) {
+  return {{"<" + tag + ">", tag, "", {tag}, std::move(meaning)}, [rows, tag](const XmlElement& e, Context& context) {
             return read_plugin(rows(), context.resolve(e, {tag}), context);
-          },
-          {},
-          {}};
+          }};
 }
 
 } // namespace render::mitsuba

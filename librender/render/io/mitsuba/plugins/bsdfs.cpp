@@ -213,21 +213,16 @@ Material make_mask(const Reflectance& opacity, Material inner) {
 
 Parameter<Material> inner_bsdf(std::string meaning) {
   return {{"<bsdf>", "bsdf", "", {"bsdf"}, std::move(meaning)},
-          [](const XmlElement& e, Context& context) { return context.read_bsdf(e); },
-          {},
-          {}};
+          [](const XmlElement& e, Context& context) { return context.read_bsdf(e); }};
 }
 
 Parameter<Slope> slope() {
   const auto alpha = or_texture(number("alpha", "",
                                        "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]; "
                                        "of a texture the channels' mean, at least 0.0001"));
-  return {alpha.declared,
-          [alpha](const XmlElement& e, Context& context) {
+  return {alpha.declared, [alpha](const XmlElement& e, Context& context) {
             return Slope{alpha.parse(e, context), true};
-          },
-          {},
-          {}};
+          }};
 }
 Parameter<Slope> alpha() { return slope().with_default({0.1}, "0.1").with_lajolla_default({0.01}, "0.01"); }
 /// Slope parameter of smooth materials. The smooth materials of lajolla are its rough ones with another default;
@@ -254,7 +249,7 @@ Parameter<std::optional<std::string>> metal() {
   const std::string meaning = fmt::format(
       "none: all is reflected; or the metal, one of {}, with measured eta and k converted to RGB as spectra",
       fmt::join(metal_names(), ", "));
-  const Parameter<std::string> p{{"material", "none or a metal", "", {"string"}, meaning}, metal_of, {}, {}};
+  const Parameter<std::string> p{{"material", "none or a metal", "", {"string"}, meaning}, metal_of};
   return optional(p).with_default(std::nullopt, "Cu, or eta and k");
 }
 // Converters clip no colours outside the gamut. The Fresnel equations depend on the squares of eta and k.
@@ -278,11 +273,9 @@ Parameter<std::optional<Spectrum>> k_of_metal() {
 Parameter<std::optional<FacetShape>> distribution(const std::vector<std::string>& names) {
   const Parameter<std::size_t> index =
       choice("distribution", names, "of the facets' normals; of lajolla's base only ggx");
-  const Parameter<std::optional<FacetShape>> p{
-      index.declared,
-      [index](const XmlElement& e, Context& context) { return static_cast<FacetShape>(index.parse(e, context)); },
-      {},
-      {}};
+  const Parameter<std::optional<FacetShape>> p{index.declared, [index](const XmlElement& e, Context& context) {
+                                                 return static_cast<FacetShape>(index.parse(e, context));
+                                               }};
   return p.with_default(std::nullopt, "beckmann").with_lajolla_default(FacetShape::ggx, "ggx");
 }
 
@@ -339,9 +332,7 @@ Parameter<double> refractive_index(const std::string& name, const std::string& w
        "",
        {"float", "integer", "string"},
        "index of refraction " + where + ", > 0, or bk7, water, ..."},
-      [](const XmlElement& e, Context&) { return e.tag == "string" ? index_of_medium(e) : number_of(e); },
-      {},
-      {}};
+      [](const XmlElement& e, Context&) { return e.tag == "string" ? index_of_medium(e) : number_of(e); }};
   return p.with_default(fallback, fmt::format("{}", fallback));
 }
 

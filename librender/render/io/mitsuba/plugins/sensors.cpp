@@ -81,9 +81,7 @@ Parameter<int> sampler_of_sensor() {
 Parameter<std::optional<NamedMedium>> medium_of_sensor() {
   return optional(Parameter<NamedMedium>{
       {"<medium>", "medium", "", {"medium"}, "what is around the camera, and outside of shapes without it inside"},
-      read_medium,
-      {},
-      {}});
+      read_medium});
 }
 
 template <class Make> struct InMedium {
@@ -243,9 +241,7 @@ const Plugins<SensorSettings>& sensor_plugins() {
                                                 "mm",
                                                 {"string"},
                                                 "of a lens that sees as much of 35 mm film's diagonal, instead of fov"},
-                                               millimetres_of,
-                                               {},
-                                               {}})
+                                               millimetres_of})
                         .with_default(std::nullopt, "50mm")),
       sensor_plugin(
           "thinlens", "a lens with depth of field", make_thinlens, fov().with_lajolla_default(45, "45"),

@@ -15,16 +15,10 @@ struct PlacedShape {
   PlacedShape(Shape s, std::string why = {}) : shape(std::move(s)), missing_uv_reason(std::move(why)) {}
 };
 
-/// How the normals of a mesh are made.
-struct Smoothing {
-  bool is_flat;
-  std::optional<double> max_angle; ///< Largest angle between smoothed faces [degrees].
-};
-
-PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world,
-                   const Smoothing& smoothing) {
+// max_angle : largest angle between smoothed faces [degrees].
+PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool is_flat,
+                   const std::optional<double>& max_angle) {
   return mc::with_context(name, [&] {
-    const auto& [is_flat, max_angle] = smoothing;
     mc::require(!is_flat || !max_angle, "faceNormals and maxSmoothAngle contradict each other; give one");
     const std::string& why = mesh.missing_uv_reason;
     return PlacedShape(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
@@ -33,29 +27,20 @@ PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transfor
   });
 }
 
-// The mesh with v measured from the other edge of a texture.
-MeshFile with_v_flipped(MeshFile mesh) {
-  for (auto& uv : mesh.uvs) uv[1] = 1 - uv[1];
-  return mesh;
-}
-
-// read_obj() measures v from the top, because OBJ files measure it from the bottom.
-PlacedShape make_obj(const std::string& path, const Transform& to_world, bool face_normals,
-                     const std::optional<double>& max_angle, bool flip) {
-  MeshFile mesh = read_obj(path);
-  return placed(path, flip ? mesh : with_v_flipped(std::move(mesh)), to_world, {face_normals, max_angle});
-}
-
-PlacedShape make_ply(const std::string& path, const Transform& to_world, bool face_normals,
-                     const std::optional<double>& max_angle, bool flip) {
-  MeshFile mesh = read_ply(path);
-  return placed(path, flip ? with_v_flipped(std::move(mesh)) : mesh, to_world, {face_normals, max_angle});
+// is_flipped : whether `read` measures v from the top. read_obj() does, because OBJ files measure it from the bottom.
+template <MeshFile (*read)(const std::string&), bool is_flipped>
+PlacedShape make_mesh(const std::string& path, const Transform& to_world, bool face_normals,
+                      const std::optional<double>& max_angle, bool flip) {
+  MeshFile mesh = read(path);
+  if (flip != is_flipped)
+    for (auto& uv : mesh.uvs) uv[1] = 1 - uv[1];
+  return placed(path, mesh, to_world, face_normals, max_angle);
 }
 
 PlacedShape make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
                             const std::optional<double>& max_angle, int index) {
-  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world,
-                {face_normals, max_angle});
+  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world, face_normals,
+                max_angle);
 }
 
 Shape make_rectangle(const Transform& to_world, bool flip) {
@@ -117,15 +102,13 @@ Shape make_sphere(const Transform& to_world, const Center& center, double radius
 Parameter<std::optional<BsdfId>> bsdf_of_shape() {
   const Parameter<std::optional<BsdfId>> p{
       {"<bsdf>", "bsdf", "", {"bsdf"}, "what covers it"},
-      [](const XmlElement& e, Context& context) { return std::optional(context.bsdf(e)); },
-      {},
-      {}};
+      [](const XmlElement& e, Context& context) { return std::optional(context.bsdf(e)); }};
   return p.with_default(std::nullopt, "diffuse; of what shines black");
 }
 
 Parameter<std::optional<NamedMedium>> medium_of_shape(const std::string& name, const std::string& meaning,
                                                       const std::vector<std::string>& roles) {
-  Parameter<NamedMedium> p{{name, "medium", "", {"medium"}, meaning}, read_medium, {}, {}};
+  Parameter<NamedMedium> p{{name, "medium", "", {"medium"}, meaning}, read_medium};
   p.declared.roles = roles;
   return optional(p);
 }
@@ -199,9 +182,7 @@ Parameter<Center> center() {
                              "its centre, which toWorld turns and moves, and since Mitsuba 2 scales"},
                             [](const XmlElement& e, Context& context) {
                               return Center{vector_of(e), context.is_mitsuba_2()};
-                            },
-                            {},
-                            {}};
+                            }};
   return p.with_default({}, "0, 0, 0");
 }
 
@@ -262,9 +243,10 @@ NamedMedium read_medium(const XmlElement& e, Context& context) {
 
 const Plugins<ShapeDescription>& shape_plugins() {
   static const Plugins<ShapeDescription> rows = {
-      mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj,
+      mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_mesh<read_obj, true>,
                   boolean("flipTexCoords", "whether the file measures v from the bottom of a texture", true)),
-      mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary, of faces or triangle strips", make_ply,
+      mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary, of faces or triangle strips",
+                  make_mesh<read_ply, false>,
                   boolean("flipTexCoords", "whether the file measures v from the bottom of a texture", false)),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
                   integer("shapeIndex", "which of the file's meshes, >= 0", 0)),

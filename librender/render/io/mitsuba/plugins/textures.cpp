@@ -59,9 +59,7 @@ Parameter<Moved> to_uv() {
                             "",
                             {"transform"},
                             "of u and v before these: as in Mitsuba 3, but only scale and translate"},
-                           moved_of,
-                           {},
-                           {}};
+                           moved_of};
   return p.with_default({}, "identity");
 }
 
