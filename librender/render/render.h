@@ -85,7 +85,8 @@ struct RenderResult {
   int missing_rows = 0;
 };
 
-/// Memory that a render needs beside the scene [bytes]: its film, its image and copies of a checkpoint.
+/// Memory that a render by threads of one process needs beside the scene [bytes]: its film, its image, copies of a
+/// checkpoint, and finished rows that wait for a row before them.
 double memory_needed(const Scene& scene, const RenderOptions& options);
 
 /// Renders a scene. For the same seed the result has the same bits for any number of threads. With `seconds` it depends

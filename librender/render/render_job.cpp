@@ -1,4 +1,5 @@
 #include <render/render_job.h>
+#include <render/render_setup.h>
 
 #include <mc/core/cpu_time.h>
 #include <mc/core/error.h>
@@ -13,100 +14,7 @@ namespace render {
 
 namespace {
 
-void check(const Scene& scene, const RenderOptions& options) {
-  mc::require(
-      finds_all_lights(scene, options.strategy) || options.aov.kind != Aov::radiance,
-      "render: the strategy {} finds lights by chance, which never meets the scene's point or directional light; "
-      "use nee or mis",
-      options.strategy.name);
-  mc::require(options.seconds || options.target_error || options.spp > 0,
-              "render: {} samples per pixel; at least 1 is needed", options.spp);
-  mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0",
-              options.seconds.value_or(0));
-  mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
-              options.target_error.value_or(0));
-  mc::require(!options.tiles.value_or(false) || options.aov.kind == Aov::radiance,
-              "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
-  mc::require(!options.tiles.value_or(false) || !scene.has_volumes(),
-              "render: tiles share vertices of surfaces, and this scene has media that scatter or have invisible "
-              "boundaries; leave out tiles");
-  mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
-              options.max_depth);
-  const int branches = options.branches.value_or(1);
-  mc::require(branches >= 1 && branches <= max_branches, "render: {} branches of a path; they must be 1 to {}",
-              branches, max_branches);
-  mc::require(!options.tiles.value_or(false) || !options.branches,
-              "render: a tile shares one continuation of each path, which does not split; leave out tiles or branches");
-}
-
-ImageExtent extent_of(const RenderOptions& options) {
-  const Crop c = options.crop.value_or(Crop{0, 0, options.width, options.height});
-  mc::require(c.x >= 0 && c.y >= 0 && c.width >= 1 && c.height >= 1 && c.x <= options.width - c.width &&
-                  c.y <= options.height - c.height,
-              "render: a crop of {}x{} pixels at ({}, {}) is not inside a picture of {}x{}", c.width, c.height, c.x,
-              c.y, options.width, options.height);
-  return {options.width, options.height, c};
-}
-
-constexpr int point_sets = 2;
-
-int sets_of(const RenderOptions& options) {
-  return options.seconds || options.target_error ? point_sets : std::min(options.spp, point_sets);
-}
-
-// What takes memory in the films of a scene.
-struct FilmParts {
-  bool has_light_paths;
-  int splats; // Pixels that get splats of one sample; 0: no splats.
-};
-
-FilmParts film_parts(bool has_light_paths, const std::optional<SplatFilter>& splat) {
-  const int side = splat ? 2 * splat->reach() + 1 : 0;
-  return {has_light_paths, side * side};
-}
-
-// Bytes of a pixel: sums of each point set and of all samples, counts, and the image. A checkpoint takes the sums once
-// more, twice while it is written.
-double bytes_per_pixel(const RenderOptions& options, const FilmParts& parts) {
-  constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(float), bytes_of_light_sums = sizeof(Eigen::Array3d);
-  const double sets = sets_of(options);
-  double film = sizeof(SampleSums) + sizeof(std::uint64_t) + sets * bytes_of_set;
-  if (parts.has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
-  if (parts.splats > 0) film += sets * sizeof(double);
-  const double copies = options.checkpoint ? 3 : 1;
-  return copies * film + 2 * sizeof(std::uint32_t) + sets * sizeof(Spectrum);
-}
-
-// The film, and the rows that wait for one that comes before them.
-double bytes_of(const ImageExtent& extent, const RenderOptions& options, const FilmParts& parts) {
-  const double rows = std::min(double(extent.crop.height), double(mc::max_waiting_results(options.threads)));
-  return extent.crop.width * (extent.crop.height * bytes_per_pixel(options, parts) +
-                              rows * FilmBlock::bytes_per_pixel(sets_of(options), parts.splats));
-}
-
-// Least number of samples per pixel of a pilot.
-constexpr double pilot_samples = 16;
 constexpr double least_rate = 0.25; ///< Of a pixel, relative to the mean, since a pilot may miss features.
-
-// None for a filter so narrow that pixels share nothing, or so wide that splats would take longer than paths; nor for
-// one sample per pixel, whose weights no other point set corrects.
-std::optional<SplatFilter> splat_filter_for(const Scene& scene, const RenderOptions& options) {
-  if (!options.splat || sets_of(options) < 2 || scene.filter().radius() > SplatFilter::max_radius) return {};
-  const SplatFilter filter(scene.filter());
-  return filter.is_wide() ? std::optional(filter) : std::nullopt;
-}
-
-std::optional<LightTracer> light_tracer_for(const Scene& scene, const RenderOptions& options) {
-  if (options.aov.kind != Aov::radiance) return {};
-  if (options.max_depth >= 0 && options.max_depth < LightTracer::min_edges) return {};
-  return LightTracer::create(scene, options.strategy, Float(options.width) / Float(options.height));
-}
-
-// Number of points of a stratified set: all points of a pixel's set if their number is known in advance.
-std::uint32_t set_size_of(const RenderOptions& options) {
-  const bool known = !options.seconds && !options.target_error && (!options.adaptive || options.spp <= pilot_samples);
-  return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
-}
 
 // Rows without samples repeat the nearest row with samples. Returns the number of such rows.
 int repeat_rows(const Film& film, Image& image) {
@@ -155,20 +63,10 @@ std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border, const
   return order;
 }
 
-const Scene& checked(const Scene& scene, const RenderOptions& options) {
-  check(scene, options);
-  return scene;
-}
-
 } // namespace
 
-double memory_needed(const Scene& scene, const RenderOptions& options) {
-  const bool has_light_paths = light_tracer_for(scene, options).has_value();
-  return bytes_of(extent_of(options), options, film_parts(has_light_paths, splat_filter_for(scene, options)));
-}
-
 RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
-    : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(checked(scene, options), options)),
+    : options_(checked(scene, options)), extent_(extent_of(options)), splat_(splat_filter_for(scene, options)),
       light_tracer_(light_tracer_for(scene, options)), points_(options.sampler, options.seed, set_size_of(options)),
       renderers_(scene, options, points_, extent_, splat_, light_tracer()),
       row_order_(row_order(extent_.crop, border(), renderers_.any_tiling())), film_(checked_film()),
@@ -179,7 +77,7 @@ RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
 }
 
 Film RenderJob::checked_film() const {
-  mc::require_memory(bytes_of(extent_, options_, film_parts(light_tracer_.has_value(), splat_)),
+  mc::require_memory(film_memory(extent_.crop, options_, light_tracer_.has_value(), splat_),
                      fmt::format("render: {}x{} pixels", extent_.crop.width, extent_.crop.height),
                      "fewer pixels or a part of them need less");
   return {extent_.crop.width, extent_.crop.height, sets_of(options_),

@@ -5,6 +5,7 @@
 #include <mc/estimate/diagnostics/tail.h>
 #include <mc/random/hash.h>
 #include <mc/run/part_run.h>
+#include <mc/stats/scale.h>
 #include <mc/stats/t_test.h>
 
 #include <fmt/format.h>

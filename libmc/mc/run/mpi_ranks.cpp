@@ -67,6 +67,7 @@ class MpiRanks::First {
     job_.write_stage(writer);
     answer_all(Reply::stage, writer.take());
     const std::size_t workers = std::min(static_cast<std::size_t>(detail::threads_of(options_)), queue.left());
+    // Twice what a rank asks for: it leaves as much to the others.
     queue.open(2 * most_ahead * workers * static_cast<std::size_t>(links_.size()));
     std::exception_ptr failure, failure_of_messages;
     is_own_work_done_ = false;

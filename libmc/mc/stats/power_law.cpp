@@ -1,4 +1,5 @@
 #include <mc/stats/power_law.h>
+#include <mc/stats/scale.h>
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
@@ -10,12 +11,6 @@
 #include <cmath>
 
 namespace mc {
-
-int largest_exponent(std::span<const double> x) {
-  double largest = 0;
-  for (const double one : x) largest = std::max(largest, std::abs(one));
-  return largest > 0 ? std::ilogb(largest) : 0;
-}
 
 namespace {
 

@@ -21,10 +21,6 @@ struct RmsError {
   template <class Archive> void archive(Archive& a) { a(n, rms, lo, hi, seconds, is_bound); }
 };
 
-/// Binary exponent of the largest |x|, or 0 if all are 0. Squares of ldexp(x, -exponent) do not overflow, and no
-/// relevant square underflows.
-int largest_exponent(std::span<const double> x);
-
 /// Kurtosis E error^4 / (E error^2)^2 of the errors of `estimates`; 0 if all errors are 0. Too small for heavy tails
 /// that few estimates reach.
 double error_kurtosis(std::span<const double> estimates, double truth);

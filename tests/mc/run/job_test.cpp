@@ -67,7 +67,7 @@ struct Slow {
   template <class Archive> void archive(Archive& a) { a(has_begun); }
 };
 
-// The first unit is the last to end: so many others wait for it as may.
+// The first unit ends only when max_waiting_results() - 1 others wait for it.
 TEST_F(JobTest, SlowUnit_IsAbsorbedFirst) {
   if (mc::hardware_threads() < 2) GTEST_SKIP() << "one thread computes the units in order";
   Slow slow;

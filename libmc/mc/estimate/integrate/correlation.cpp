@@ -1,4 +1,5 @@
 #include <mc/estimate/integrate/correlation.h>
+#include <mc/stats/scale.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,7 @@ namespace mc::detail {
 namespace {
 // Deviations from the mean as a unit vector; zeros if they are only rounding errors.
 std::vector<double> direction(std::vector<double> x) {
-  double largest = 0;
-  for (const double v : x) largest = std::max(largest, std::abs(v));
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0; // scales so that no square overflows or underflows
+  const int exponent = largest_exponent(x);
   for (double& v : x) v = std::ldexp(v, -exponent);
   const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
   double square = 0;

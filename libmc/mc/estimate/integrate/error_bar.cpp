@@ -4,6 +4,7 @@
 #include <mc/estimate/integrate/corrections/tail_extension.h>
 #include <mc/estimate/integrate/error_bar.h>
 #include <mc/estimate/moments.h>
+#include <mc/stats/scale.h>
 #include <mc/stats/t_test.h>
 
 #include <boost/math/distributions/normal.hpp>
@@ -18,13 +19,6 @@ namespace mc::detail {
 namespace {
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double least_error = std::numeric_limits<double>::denorm_min(); // a mean that underflows need not be 0
-
-// The largest size of numbers.
-double largest_of(std::span<const double> numbers) {
-  double largest = 0;
-  for (const double x : numbers) largest = std::max(largest, std::abs(x));
-  return largest;
-}
 
 Estimate::Interval interval_at(const Mean& m, double confidence) {
   const double alpha = 0.5 * (1 - confidence), tail = tail_extension(alpha);
@@ -64,7 +58,7 @@ TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t) 
 }
 
 namespace {
-// Shape of the heavier tail that all of the last lengths show; -infinity<double> before there are enough of them.
+// Shape of the heavier tail that all of the last lengths show; -infinity before there are enough of them.
 double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t) {
   double heavier = -infinity<double>;
   if (shapes.size() < t.persistent) return heavier;
@@ -112,13 +106,13 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
                         SpreadHistory& history, const Tuning& t) {
   const Extremes& extremes = values.averaged;
   const double replicates = static_cast<double>(means.size()), count = static_cast<double>(extremes.count());
-  const double largest = largest_of(means);
-  const int exponent = largest > 0 ? std::ilogb(largest) : 0; // numbers may be of any size
+  const int exponent = largest_exponent(means);
   Moments scaled;
   for (const double x : means) scaled.add(std::ldexp(x, -exponent));
   const double spread = std::ldexp(std::sqrt(scaled.variance()), exponent);
   // Where values of both signs cancel, rounding is relative to their size.
-  const double mean_size = count > 0 ? extremes.sum_of_sizes() / count : 0, scale = std::max(largest, mean_size);
+  const double mean_size = count > 0 ? extremes.sum_of_sizes() / count : 0,
+               scale = std::max(largest_size(means), mean_size);
   history.points.push_back(points);
   history.spreads.push_back(spread > rounding * scale ? spread : 0.0);
   const double deviation = pooled_spread(history.points, history.spreads, t);

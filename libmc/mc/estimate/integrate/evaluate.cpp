@@ -1,6 +1,7 @@
 #include <mc/core/error.h>
 #include <mc/estimate/integrate/evaluate.h>
 #include <mc/run/job.h>
+#include <mc/stats/scale.h>
 
 #include <algorithm>
 #include <chrono>
@@ -56,12 +57,6 @@ struct WeightedPoints {
     }
   }
 };
-
-double largest_size(std::span<const double> values) {
-  double largest = 0;
-  for (const double x : values) largest = std::max(largest, std::abs(x));
-  return largest;
-}
 } // namespace
 
 void Integrand::operator()(std::span<const double> points, std::size_t d, std::span<double> values) const {

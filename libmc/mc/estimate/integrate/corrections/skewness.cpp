@@ -1,7 +1,7 @@
 #include <mc/core/types.h>
 #include <mc/estimate/integrate/corrections/skewness.h>
+#include <mc/stats/scale.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,8 +9,7 @@ namespace mc::detail {
 
 double skew_of_mean(std::span<const double> numbers, const Tuning& t) {
   const double count = static_cast<double>(numbers.size());
-  double largest = 0;
-  for (const double x : numbers) largest = std::max(largest, std::abs(x));
+  const double largest = largest_size(numbers);
   if (!(largest > 0) || numbers.size() < 3) return 0;
   double mean = 0, second = 0, third = 0;
   for (const double x : numbers) mean += x / largest / count;
