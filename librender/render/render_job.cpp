@@ -104,6 +104,12 @@ Film RenderJob::new_window() const {
           FilmOptions{.splat = splat_}};
 }
 
+std::size_t RenderJob::archive_size() const {
+  constexpr std::size_t others = 1 << 16;
+  return film_.bytes() + (window_ ? window_->bytes() : 0) + 2 * taken_.size() * sizeof(taken_[0]) +
+         plan_.rates.size() * sizeof(float) + others;
+}
+
 double RenderJob::elapsed() const {
   return earlier_seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }

@@ -44,6 +44,7 @@ class RenderJob {
   bool may_start() const { return !is_out_of_time(); }
   /// As mc::Job.
   template <class Archive> void archive(Archive& a) {
+    if constexpr (!Archive::is_reader) a.reserve(archive_size());
     double seconds = elapsed();
     a(film_, taken_, next_taken_, plan_, renderers_, pilot_mean_, mean_, total_, error_.value, error_.bound,
       outlier_dominated_, unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds_);
@@ -89,6 +90,8 @@ class RenderJob {
     std::size_t row, begin, end;
   };
 
+  // At least the size of the archive, so that its memory does not grow by copies.
+  std::size_t archive_size() const;
   double elapsed() const;
   bool is_limited() const { return options_.seconds || options_.target_error; }
   // The first pass is always completed.

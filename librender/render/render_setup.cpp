@@ -1,4 +1,5 @@
 #include <render/film/film_block.h>
+#include <render/film/sampling_plan.h>
 #include <render/render_setup.h>
 
 #include <mc/core/error.h>
@@ -11,16 +12,22 @@ namespace {
 
 constexpr int point_sets = 2;
 
-// Sums of each point set and of all samples, counts, and the image. A checkpoint takes the sums once more, twice while
-// it is written.
+bool is_adaptive(const RenderOptions& options) {
+  return options.adaptive && (options.seconds || options.target_error || options.spp > pilot_samples);
+}
+
+// Sums of each point set, statistics of all samples and counts; and the image with the rates, or adaptive_plan(), which
+// do not exist at the same time. A checkpoint takes the sums once more.
 double bytes_per_pixel(const RenderOptions& options, bool has_light_paths, bool has_splats) {
   constexpr double bytes_of_set = sizeof(Eigen::Array3d) + sizeof(float), bytes_of_light_sums = sizeof(Eigen::Array3d);
   const double sets = sets_of(options);
-  double film = sizeof(SampleSums) + sizeof(std::uint64_t) + sets * bytes_of_set;
+  double film = sizeof(SampleStatistics) + sizeof(std::uint64_t) + sets * bytes_of_set;
   if (has_light_paths) film += sizeof(LightSums) + sets * bytes_of_light_sums;
   if (has_splats) film += sets * sizeof(double);
-  const double copies = options.checkpoint ? 3 : 1;
-  return copies * film + 2 * sizeof(std::uint32_t) + sets * sizeof(Spectrum);
+  const double copies = options.checkpoint ? 2 : 1;
+  const double image = 2 * sizeof(Spectrum), counts = 2 * sizeof(std::uint32_t);
+  return copies * film + counts +
+         (is_adaptive(options) ? std::max(image + sizeof(float), double(planning_bytes)) : image);
 }
 
 } // namespace
@@ -66,7 +73,7 @@ int sets_of(const RenderOptions& options) {
 }
 
 std::uint32_t set_size_of(const RenderOptions& options) {
-  const bool known = !options.seconds && !options.target_error && (!options.adaptive || options.spp <= pilot_samples);
+  const bool known = !options.seconds && !options.target_error && !is_adaptive(options);
   return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
 }
 

@@ -61,22 +61,21 @@ RenderStats RendererChoice::render_row(int y, int column, std::span<const std::u
 
 void RendererChoice::choose(const Film& pilot) {
   if (chosen_) return;
-  std::vector<PixelEstimate> pixels;
   double mean = 0;
   for (int y = 0; y < pilot.height(); ++y)
-    for (int x = 0; x < pilot.width(); ++x) mean += pixels.emplace_back(pilot.estimate(x, y)).mean.mean();
-  mean /= double(pixels.size());
+    for (int x = 0; x < pilot.width(); ++x) mean += pilot.estimate(x, y).mean.mean();
+  mean /= double(pilot.width()) * pilot.height();
   struct Part {
     double errors = 0, rays = 0, pixels = 0;
     double cost() const { return pixels > 0 ? mc::sqr(errors / pixels) * rays / pixels : mc::infinity<double>; }
   };
   std::vector<Part> parts(renderers_.size());
-  auto pixel = pixels.begin();
   for (int y = 0; y < pilot.height(); ++y)
-    for (int x = 0; x < pilot.width(); ++x, ++pixel) {
+    for (int x = 0; x < pilot.width(); ++x) {
+      const PixelEstimate pixel = pilot.estimate(x, y);
       Part& own = parts[in_turn(x, y)];
-      const Eigen::Array3d unit = pixel->mean.square() + mc::sqr(mean / 2);
-      if (mean > 0) own.errors += std::sqrt(((pixel->variance - pixel->light_variance).max(0) / unit).mean());
+      const Eigen::Array3d unit = pixel.mean.square() + mc::sqr(mean / 2);
+      if (mean > 0) own.errors += std::sqrt(((pixel.variance - pixel.light_variance).max(0) / unit).mean());
       own.rays += double(pilot.rays(x, y));
       ++own.pixels;
     }

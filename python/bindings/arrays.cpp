@@ -60,15 +60,16 @@ Array new_array(std::span<const double> values, std::vector<py::ssize_t> shape) 
   return array;
 }
 
-void require_unit(const Rows& u, const std::string& what) {
-  const std::span<const double> values = u.values();
-  bool inside = true;
-  for (const double v : values) inside &= v >= 0 && v < 1;
-  if (inside) return;
-  const auto bad = static_cast<std::size_t>(
-      std::find_if(values.begin(), values.end(), [](double v) { return !(v >= 0 && v < 1); }) - values.begin());
+void require_unit(const Rows& u, const std::string& what, std::size_t first, std::size_t count) {
+  const std::span<const double> values = u.values().subspan(first * u.columns, count * u.columns);
+  std::uint64_t inside = 0; // as wide as the numbers, so that the loop vectorizes
+  for (const double v : values) inside += std::uint64_t(v >= 0) & std::uint64_t(v < 1);
+  if (inside == values.size()) return;
+  const auto found = std::find_if(values.begin(), values.end(), [](double v) { return !(v >= 0 && v < 1); });
+  if (found == values.end()) return; // another thread of Python has changed it
+  const auto bad = static_cast<std::size_t>(found - values.begin());
   throw mc::Error(fmt::format("{}: coordinate {} of point {} is {}; it must lie in [0, 1)", what, bad % u.columns,
-                              bad / u.columns, values[bad]));
+                              first + bad / u.columns, values[bad]));
 }
 
 } // namespace bindings

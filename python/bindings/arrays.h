@@ -70,8 +70,10 @@ inline std::span<double> span_of(Array& array) {
   return {array.mutable_data(), static_cast<std::size_t>(array.size())};
 }
 
-/// Throws Error with the first coordinate outside [0,1).
-void require_unit(const Rows& u, const std::string& what);
+/// Throws Error with the first coordinate outside [0,1), of all points or of `count` points from `first` on.
+void require_unit(const Rows& u, const std::string& what, std::size_t first, std::size_t count);
+/// As above.
+inline void require_unit(const Rows& u, const std::string& what) { require_unit(u, what, 0, u.count); }
 
 } // namespace bindings
 

@@ -45,58 +45,121 @@ namespace detail {
 template <class P> constexpr std::size_t columns_of = std::size_t(mc::detail::point_size<P>());
 
 template <class P> P point_at(const double* row) {
-  if constexpr (columns_of<P> == 1) return *row;
-  else return P(Eigen::Map<const P>(row));
+  if constexpr (columns_of<P> == 1) {
+    return *row;
+  } else {
+    P p;
+    for (std::size_t k = 0; k < columns_of<P>; ++k) p[Eigen::Index(k)] = row[k];
+    return p;
+  }
 }
 template <class P> void put_point(double* row, const P& p) {
   if constexpr (columns_of<P> == 1) *row = p;
-  else std::copy_n(p.data(), columns_of<P>, row);
+  else
+    for (std::size_t k = 0; k < columns_of<P>; ++k) row[k] = p[Eigen::Index(k)];
 }
 
-// Blocks of columns between the rows of NumPy: sample_n vectorises over columns.
+// Rows are mapped in blocks. The results of a block are local: they cannot alias the warp, so that the loops vectorize.
+// The loops are functions of their own, which the compiler can optimize as it does in C++ programs. A few rows, as of a
+// part of another warp, are mapped one by one.
+constexpr std::size_t block_size = 64, few = 4;
+
+template <class Map> void for_blocks(std::size_t count, const Map& map) {
+  for (std::size_t first = 0; first < count; first += block_size) map(first, std::min(block_size, count - first));
+}
+
+template <class W>
+[[gnu::noinline]] void sample_columns(const W& warp, const mc::UnitColumns<W>& u, const mc::PointColumns<W>& x) {
+  mc::sample_n(warp, u, x);
+}
+
 template <class W> void sample_rows(const void* held, std::size_t count, const double* u, double* x) {
-  constexpr std::size_t from = columns_of<mc::UnitPointOf<W>>, to = columns_of<mc::PointOf<W>>, block = 256;
+  constexpr std::size_t from = columns_of<mc::UnitPointOf<W>>, to = columns_of<mc::PointOf<W>>;
   const W& warp = *static_cast<const W*>(held);
-  if (count < 4) {
+  if (count < few) {
     for (std::size_t i = 0; i < count; ++i)
       put_point<mc::PointOf<W>>(x + i * to, warp.sample(point_at<mc::UnitPointOf<W>>(u + i * from)));
     return;
   }
-  std::array<std::array<double, block>, from> in;
-  std::array<std::array<double, block>, to> out;
-  for (std::size_t first = 0; first < count; first += block) {
-    const std::size_t n = std::min(block, count - first);
+  if constexpr (from == 1 && to == 1) {
+    sample_columns<W>(warp, {std::span(u, count)}, {std::span(x, count)});
+    return;
+  }
+  for_blocks(count, [&](std::size_t first, std::size_t n) {
+    std::array<std::array<double, block_size>, from> in;
+    std::array<std::array<double, block_size>, to> out;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < from; ++k) in[k][i] = u[(first + i) * from + k];
     mc::UnitColumns<W> columns;
     mc::PointColumns<W> results;
-    for (std::size_t k = 0; k < from; ++k) {
-      for (std::size_t i = 0; i < n; ++i) in[k][i] = u[(first + i) * from + k];
-      columns[k] = std::span(in[k]).first(n);
-    }
+    for (std::size_t k = 0; k < from; ++k) columns[k] = std::span(in[k]).first(n);
     for (std::size_t k = 0; k < to; ++k) results[k] = std::span(out[k]).first(n);
-    mc::sample_n(warp, columns, results);
+    sample_columns(warp, columns, results);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < to; ++k) x[(first + i) * to + k] = out[k][i];
-  }
+  });
+}
+
+template <class W> [[gnu::noinline]] void pdf_block(const W& warp, std::size_t n, const double* x, double* density) {
+  using P = mc::PointOf<W>;
+  std::array<double, block_size> out;
+  for (std::size_t i = 0; i < n; ++i) out[i] = warp.pdf(point_at<P>(x + i * columns_of<P>));
+  std::copy_n(out.data(), n, density);
 }
 
 template <class W> void pdf_rows(const void* held, std::size_t count, const double* x, double* density) {
   using P = mc::PointOf<W>;
   const W& warp = *static_cast<const W*>(held);
-  for (std::size_t i = 0; i < count; ++i) density[i] = warp.pdf(point_at<P>(x + i * columns_of<P>));
+  if (count < few) {
+    for (std::size_t i = 0; i < count; ++i) density[i] = warp.pdf(point_at<P>(x + i * columns_of<P>));
+    return;
+  }
+  for_blocks(count,
+             [&](std::size_t first, std::size_t n) { pdf_block(warp, n, x + first * columns_of<P>, density + first); });
 }
 
 [[noreturn]] void refuse_outside(const double* x, std::size_t columns, std::size_t index);
+
+// The index of the first point outside of a domain, or n.
+template <class Domain>
+[[gnu::noinline]] std::size_t first_outside(const Domain& domain, std::size_t n, const double* x) {
+  using P = typename Domain::Point;
+  std::uint64_t inside = 0; // as wide as the numbers, so that the loop vectorizes
+  for (std::size_t i = 0; i < n; ++i) inside += domain.contains(point_at<P>(x + i * columns_of<P>));
+  if (inside == n) return n;
+  std::size_t i = 0;
+  while (i < n && domain.contains(point_at<P>(x + i * columns_of<P>))) ++i;
+  return i;
+}
+
+template <class W> [[gnu::noinline]] void invert_block(const W& warp, std::size_t n, const double* x, double* u) {
+  using P = mc::PointOf<W>;
+  using U = mc::UnitPointOf<W>;
+  std::array<double, block_size * columns_of<U>> out;
+  for (std::size_t i = 0; i < n; ++i)
+    put_point<U>(out.data() + i * columns_of<U>, warp.invert(point_at<P>(x + i * columns_of<P>)));
+  std::copy_n(out.data(), n * columns_of<U>, u);
+}
 
 template <class W> void invert_rows(const void* held, std::size_t count, const double* x, double* u) {
   using P = mc::PointOf<W>;
   using U = mc::UnitPointOf<W>;
   const W& warp = *static_cast<const W*>(held);
   const typename W::Domain domain = warp.domain();
-  for (std::size_t i = 0; i < count; ++i) {
-    const P p = point_at<P>(x + i * columns_of<P>);
-    if (!domain.contains(p)) refuse_outside(x + i * columns_of<P>, columns_of<P>, i);
-    put_point<U>(u + i * columns_of<U>, warp.invert(p));
+  if (count < few) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const P p = point_at<P>(x + i * columns_of<P>);
+      if (!domain.contains(p)) refuse_outside(x + i * columns_of<P>, columns_of<P>, i);
+      put_point<U>(u + i * columns_of<U>, warp.invert(p));
+    }
+    return;
   }
+  for_blocks(count, [&](std::size_t first, std::size_t n) {
+    const double* in = x + first * columns_of<P>;
+    if (const std::size_t i = first_outside(domain, n, in); i < n)
+      refuse_outside(in + i * columns_of<P>, columns_of<P>, first + i);
+    invert_block(warp, n, in, u + first * columns_of<U>);
+  });
 }
 
 } // namespace detail

@@ -17,12 +17,17 @@ namespace {
 
 Array sample(const AnyWarp& w, const ArrayLike& u, const py::object& out) {
   const Rows rows = to_rows(u, w.uniforms(), "sample: u");
-  require_unit(rows, "sample: u");
   Array x = rows_for(out, rows.outer, w.coordinates());
-  const double* in = rows.array.data();
   double* to = x.mutable_data();
+  const bool in_place = to == rows.array.data();
+  if (in_place) require_unit(rows, "sample: u"); // so that an error leaves u as it was
   const py::gil_scoped_release release;
-  w.sample(w.held.get(), rows.count, in, to);
+  constexpr std::size_t block = 1024; // stays in the cache between the check and the map
+  for (std::size_t first = 0; first < rows.count; first += block) {
+    const std::size_t n = std::min(block, rows.count - first);
+    require_unit(rows, "sample: u", first, n);
+    w.sample(w.held.get(), n, rows.values().data() + first * w.uniforms(), to + first * w.coordinates());
+  }
   return x;
 }
 
@@ -89,12 +94,41 @@ BoundWarp<Mixture> make_mixture(const std::vector<double>& weights, const std::v
                                       : mixture_of<2, 3>(name, domain, weights, warps));
 }
 
+// A function of both factors of a product, column by column: products of densities, or a column of results each.
+template <class P, auto function> void factor_rows(const void* held, std::size_t count, const double* in, double* out) {
+  const P& product = *static_cast<const P*>(held);
+  std::array<double, detail::block_size> column, first, second;
+  detail::for_blocks(count, [&](std::size_t begin, std::size_t n) {
+    const auto map = [&](const AnyWarp& factor, std::size_t k, double* results) {
+      for (std::size_t i = 0; i < n; ++i) column[i] = in[2 * (begin + i) + k];
+      (factor.*function)(factor.held.get(), n, column.data(), results);
+    };
+    map(*product.first.any, 0, first.data());
+    map(*product.second.any, 1, second.data());
+    for (std::size_t i = begin; i < begin + n; ++i) {
+      if constexpr (function == &AnyWarp::pdf) {
+        out[i] = first[i - begin] * second[i - begin];
+      } else {
+        out[2 * i] = first[i - begin];
+        out[2 * i + 1] = second[i - begin];
+      }
+    }
+  });
+}
+
+template <class P> AnyWarp product_of(const std::string& name, const P& product) {
+  AnyWarp any = any_warp(name, product);
+  any.sample = factor_rows<P, &AnyWarp::sample>;
+  any.pdf = factor_rows<P, &AnyWarp::pdf>;
+  return any;
+}
+
 BoundWarp<Product> make_product(const AnyWarp& a, const AnyWarp& b) {
   mc::require(a.uniforms() == 1 && b.uniforms() == 1, "Product: factors of {} and {} dimensions; both must have one",
               a.uniforms(), b.uniforms());
   const std::string name = fmt::format("Product({}, {})", a.name, b.name);
-  AnyWarp any = a.invert && b.invert ? any_warp(name, mc::Product{InvertiblePart<1, 1>(a), InvertiblePart<1, 1>(b)})
-                                     : any_warp(name, mc::Product{PartWarp<1, 1>(a), PartWarp<1, 1>(b)});
+  AnyWarp any = a.invert && b.invert ? product_of(name, mc::Product{InvertiblePart<1, 1>(a), InvertiblePart<1, 1>(b)})
+                                     : product_of(name, mc::Product{PartWarp<1, 1>(a), PartWarp<1, 1>(b)});
   any.domain.text = a.domain.text + " x " + b.domain.text;
   any.breaks = {a.breaks[0], b.breaks[0]};
   return BoundWarp<Product>(std::move(any));
@@ -139,7 +173,8 @@ Every warp has sample(u), pdf(x) and mostly invert(x), which take arrays of any 
   sample(u) : u (..., dim) in [0,1) -> x (..., point_size)
   pdf(x)    : x (..., point_size) -> (...), with respect to length, area, solid angle or volume; 0 outside the support
   invert(x) : x (..., point_size) -> u (..., dim), so that invert(sample(u)) = u
-`out` takes an array for the results, as in NumPy.)")
+`out` takes an array for the results, which may be the argument itself but must not overlap it otherwise. After an Error
+its content is undefined.)")
       .def("sample", &sample, py::arg("u"), py::kw_only(), py::arg("out") = py::none(),
            "Points for uniform numbers: u (..., dim) in [0,1) -> x (..., point_size).")
       .def("pdf", &pdf, py::arg("x"), py::kw_only(), py::arg("out") = py::none(),

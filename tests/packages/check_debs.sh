@@ -30,5 +30,5 @@ assert libmc.__file__.startswith("/tmp") or "dist-packages" in libmc.__file__
 libmc.assert_distribution(libmc.warps.UniformDisk(), samples=20000)
 subprocess.run([sys.executable, "-m", "libmc", "--version"], check=True)
 PYTHON
-grep -q "find_dependency(Eigen3" usr/lib/cmake/mc/mc-config.cmake || fail "libmc-dev has no CMake package"
+grep -q "find_dependency(Eigen3" usr/lib/*/cmake/mc/mc-config.cmake usr/lib/cmake/mc/mc-config.cmake || fail "libmc-dev has no CMake package"
 echo "check_debs.sh: 4 packages work"

@@ -95,6 +95,42 @@ def test_arrays_of_any_shape(warp):
     assert warp.pdf(x).shape == (60,)
 
 
+@pytest.mark.parametrize("warp", ALL, ids=repr)
+def test_many_points_are_mapped_as_few(warp):
+    """Arrays are mapped in blocks; three rows one by one."""
+    u = samplers.sobol(3000, warp.dim, 5)
+    u = u[:, 0].copy() if warp.dim == 1 else u
+    x = warp.sample(u)
+
+    def in_parts(f, rows):
+        return np.concatenate([f(rows[i : i + 3]) for i in range(0, len(rows), 3)])
+
+    np.testing.assert_array_equal(x, in_parts(warp.sample, u))
+    np.testing.assert_array_equal(warp.pdf(x), in_parts(warp.pdf, x))
+    if warp.is_invertible:
+        np.testing.assert_array_equal(warp.invert(x), in_parts(warp.invert, x))
+    if x.shape == u.shape:
+        own = u.copy()
+        assert warp.sample(own, out=own) is own
+        np.testing.assert_array_equal(own, x)
+
+
+def test_places_of_wrong_points():
+    u = samplers.sobol(3000, 2)
+    disk = warps.UniformDisk()
+    x = disk.sample(u)
+    x[100] = 2
+    with pytest.raises(libmc.Error, match="point 100 = "):
+        disk.invert(x)
+    u[1500, 1] = 1
+    with pytest.raises(libmc.Error, match="coordinate 1 of point 1500 is 1"):
+        disk.sample(u)
+    before = u.copy()
+    with pytest.raises(libmc.Error, match="point 1500"):
+        disk.sample(u, out=u)
+    np.testing.assert_array_equal(u, before)
+
+
 @pytest.mark.parametrize("warp", [w for w in ALL if w.is_invertible], ids=repr)
 def test_inverse(warp):
     u = samplers.sobol(1000, warp.dim, 3)

@@ -29,7 +29,9 @@ Measured of_sets(std::uint64_t seed, std::uint32_t sets, std::uint32_t points, c
     }
     found.means.add(sum / points, set);
   }
-  found.outlier_dominated = samples.effective_sample_count() < 2;
+  SampleStatistics statistics;
+  statistics.add(samples);
+  found.outlier_dominated = statistics.effective_sample_count() < 2;
   return found;
 }
 

@@ -11,7 +11,7 @@ namespace render::truth {
 
 struct Measured {
   mc::Moments means;              ///< Means of independently randomized point sets.
-  bool outlier_dominated = false; ///< See SampleSums.
+  bool outlier_dominated = false; ///< See SampleStatistics.
 };
 
 /// Estimates the radiance with `sets` sets of `points` points each.

@@ -223,14 +223,14 @@ void Checkpoint::save_and_wait() {
   report_finished_writing();
 }
 
-const std::string* Checkpoint::open(const std::string& name, Save save) {
+std::optional<std::string> Checkpoint::open(const std::string& name, Save save) {
   const std::size_t depth = open_.size();
   open_.emplace_back(name, std::move(save));
-  if (depth >= saved_.size()) return nullptr;
-  const auto& [saved_name, bytes] = saved_[depth];
+  if (depth >= saved_.size()) return {};
+  auto& [saved_name, bytes] = saved_[depth];
   require(saved_name == name, "'{}' was saved in '{}', and the run is in '{}'{}", options_.resume,
           printable(saved_name), name, saved_name == "part" ? "; it is a part of a run" : "");
-  return &bytes;
+  return std::move(bytes);
 }
 
 void Checkpoint::close() {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -77,7 +78,8 @@ class Checkpoint {
     ///   throws : Error if the file contains another section at this place.
     template <class Archive> Section(Checkpoint* checkpoint, const std::string& name, Archive archive) {
       if (!checkpoint) return;
-      const std::string* bytes = checkpoint->open(name, [archive](ArchiveWriter& writer) { archive(writer); });
+      const std::optional<std::string> bytes =
+          checkpoint->open(name, [archive](ArchiveWriter& writer) { archive(writer); });
       checkpoint_ = checkpoint;
       if (!bytes) return;
       ArchiveReader reader(*bytes);
@@ -107,8 +109,8 @@ class Checkpoint {
   class Writing;
   class Lock;
 
-  // Returns the saved bytes of the section, or null.
-  const std::string* open(const std::string& name, Save save);
+  // Moves out the saved bytes of the section, if there are any.
+  std::optional<std::string> open(const std::string& name, Save save);
   void close();
   void report_finished_writing();
 

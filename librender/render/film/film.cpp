@@ -13,9 +13,6 @@ namespace render {
 
 namespace {
 
-// Squared deviations below this share of the squares count as rounding errors of equal samples.
-constexpr double rounding = 1e-12;
-
 /// Mean and variance over all sets; see Film::estimate.
 struct MeanOfSets {
   Eigen::Array3d mean = Eigen::Array3d::Zero(), variance = Eigen::Array3d::Zero();
@@ -75,40 +72,6 @@ Eigen::Array3d around(const Image& image, int x, int y) {
 
 } // namespace
 
-void SampleSums::merge(const SampleSums& other) {
-  count += other.count;
-  sum += other.sum;
-  squares += other.squares;
-  largest = std::max(largest, other.largest);
-  channel_sums += other.channel_sums;
-  channel_squares += other.channel_squares;
-  channel_largest = channel_largest.max(other.channel_largest);
-  channel_smallest = channel_smallest.min(other.channel_smallest);
-}
-
-Eigen::Array3d SampleSums::variance_of_mean() const {
-  const auto n = double(count);
-  if (count < 2) return Eigen::Array3d::Constant(mc::infinity<double>);
-  return ((channel_squares - channel_sums.square() / n) / (n * (n - 1))).max(0);
-}
-
-double SampleSums::effective_sample_count(const LightSums& light, double weight) const {
-  if (count < 2) return mc::infinity<double>;
-  const double mean = sum / double(count), w2 = mc::sqr(weight);
-  const double all = squares + w2 * light.squares, deviations = all - mean * sum;
-  const double most = std::max(mc::sqr(largest - mean), w2 * mc::sqr(light.largest));
-  return deviations > rounding * all ? deviations / most : mc::infinity<double>;
-}
-
-Eigen::Array3d SampleSums::jump() const {
-  if (count < 2) return Eigen::Array3d::Zero();
-  const Eigen::Array3d mean = channel_sums / double(count), squares_mean = channel_squares / double(count),
-                       s2 = squares_mean - mean.square(), up = channel_largest - mean, down = mean - channel_smallest;
-  const Eigen::Array3d two = (1.5 * s2 / (up * down) - 0.5).max(0).min(1);
-  const Eigen::Array3d share = (up.max(down).square() > 9 * s2).select(1, two.sqrt());
-  return (s2 > rounding * squares_mean && up > 0 && down > 0).select((up + down) * share, 0);
-}
-
 Film::Film(int width, int height, int sets, FilmOptions options)
     : width_(width), height_(height), sets_(sets), options_(std::move(options)) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
@@ -124,6 +87,11 @@ Film::Film(int width, int height, int sets, FilmOptions options)
   light_.resize(sums_.size(), Eigen::Array3d::Zero());
   light_sums_.resize(pixels);
   light_counts_.resize(static_cast<std::size_t>(sets));
+}
+
+std::size_t Film::bytes() const {
+  const auto size = [](const auto&... sums) { return (... + (sums.size() * sizeof(sums[0]))); };
+  return size(sums_, counts_, weights_, samples_, rays_, light_, light_sums_, light_counts_);
 }
 
 void Film::add(int x, int y, int set, const Eigen::Array3d& sum, double count) {
@@ -166,7 +134,7 @@ void Film::take_row(Film& window, int y) {
 }
 
 void Film::record_samples(int x, int y, const SampleSums& samples, std::uint64_t rays) {
-  samples_[sample_index(x, y)].merge(samples);
+  samples_[sample_index(x, y)].add(samples);
   if (contains(x, y)) rays_[index(x, y)] += rays;
 }
 
@@ -193,7 +161,7 @@ Eigen::Array3d Film::squared_jump(int x, int y, double count) const {
   const int reach = options_.splat->reach();
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx) {
-      const SampleSums& samples = samples_[sample_index(x + dx, y + dy)];
+      const SampleStatistics& samples = samples_[sample_index(x + dx, y + dy)];
       if (samples.count < 2) continue;
       sum += options_.splat->squared_weight(dx, dy) * (samples.jump() * (count / double(samples.count))).square();
     }
@@ -224,13 +192,13 @@ PixelEstimate Film::estimate(int x, int y) const {
       sets, [&](std::size_t i) { return set_sum(first, first + i); },
       [&](std::size_t i) { return double(counts_[first + i]); }, squared_jump(x, y, count));
   pixel.mean = own.mean;
-  const SampleSums& samples = samples_[sample_index(x, y)];
+  const SampleStatistics& samples = samples_[sample_index(x, y)];
   const bool by_samples = options_.independent_samples && !options_.splat && pixel.sets > 1;
   pixel.variance = by_samples ? samples.variance_of_mean() : own.variance;
   if (light_.empty()) return pixel;
   const auto light = mean_of(
       sets, [&](std::size_t i) { return light_[first + i]; }, [&](std::size_t i) { return light_counts_[i]; },
-      light_sums_[index(x, y)].channel_largest.square());
+      light_sums_[index(x, y)].channel_largest.cast<double>().square());
   pixel.mean += light.mean;
   pixel.variance += light.variance;
   pixel.light_variance = light.variance;
@@ -294,7 +262,7 @@ RelativeErrors Film::with_few_light_paths(RelativeErrors errors, const Image& im
     for (std::size_t set = 0; set < static_cast<std::size_t>(sets_); ++set)
       own += luminance(light_[i * static_cast<std::size_t>(sets_) + set]) / count;
     light += own;
-    if (light_sums_[i].squares < 2 * mc::sqr(light_sums_[i].largest)) dominated += own;
+    if (light_sums_[i].squares < 2 * mc::sqr(double(light_sums_[i].largest))) dominated += own;
   }
   if (!(all > 0)) return errors;
   const bool may_miss_light = light == 0 && unseen_light_.count > 0 && sees_surfaces();
@@ -313,7 +281,7 @@ bool Film::sees_surfaces() const {
 }
 
 double Film::effective_sample_count(int x, int y) const {
-  const SampleSums& samples = samples_[sample_index(x, y)];
+  const SampleStatistics& samples = samples_[sample_index(x, y)];
   const double light = light_count();
   if (!(light > 0 && contains(x, y))) return samples.effective_sample_count();
   return samples.effective_sample_count(light_sums_[index(x, y)], double(samples.count) / light);

@@ -3,6 +3,7 @@
 
 #include <render/film/filter.h>
 #include <render/film/image.h>
+#include <render/film/sample_statistics.h>
 
 #include <mc/run/archive.h>
 
@@ -22,23 +23,6 @@ struct InvalidSample {
 
   /// The location, see mc/run/archive.h.
   template <class Archive> void archive(Archive& a) { a(x, y, pass, index); }
-};
-
-/// Statistics of the light path contributions of a pixel; see Film::add_light_splat.
-struct LightSums {
-  double squares = 0,                                      ///< Sum of squared luminances.
-      largest = 0;                                         ///< Largest luminance.
-  Eigen::Array3d channel_largest = Eigen::Array3d::Zero(); ///< Largest value per channel.
-
-  /// Adds one contribution.
-  void add(const Eigen::Array3d& value) {
-    const double y = luminance(value);
-    squares += y * y;
-    largest = std::max(largest, y);
-    channel_largest = channel_largest.max(value);
-  }
-  /// The sums, see mc/run/archive.h.
-  template <class Archive> void archive(Archive& a) { a(squares, largest, channel_largest); }
 };
 
 /// Contributions of light paths that no pixel of the film takes; see Film::add_unseen_light.
@@ -61,53 +45,6 @@ struct UnseenLight {
   template <class Archive> void archive(Archive& a) { a(count, sum); }
 };
 
-/// Statistics of a pixel's samples: spread, extremes and jumps. Plain sums need less memory than mc::Moments of
-/// luminance and channels, and no division for each sample.
-struct SampleSums {
-  std::uint64_t count = 0;                                                          ///< Number of samples.
-  double sum = 0,                                                                   ///< Sum of luminances.
-      squares = 0,                                                                  ///< Sum of squared luminances.
-      largest = 0;                                                                  ///< Largest luminance.
-  Eigen::Array3d channel_sums = Eigen::Array3d::Zero();                             ///< Sums per channel.
-  Eigen::Array3d channel_squares = Eigen::Array3d::Zero();                          ///< Sums of squares per channel.
-  Eigen::Array3d channel_largest = Eigen::Array3d::Zero();                          ///< Maxima per channel.
-  Eigen::Array3d channel_smallest = Eigen::Array3d::Constant(mc::infinity<double>); ///< Minima per channel.
-
-  /// Adds one sample.
-  void add(const Eigen::Array3d& sample) {
-    const double y = luminance(sample);
-    ++count;
-    sum += y;
-    squares += y * y;
-    largest = std::max(largest, y);
-    channel_sums += sample;
-    channel_squares += sample.square();
-    channel_largest = channel_largest.max(sample);
-    channel_smallest = channel_smallest.min(sample);
-  }
-  void merge(const SampleSums& other); ///< Adds the statistics of other samples.
-  /// The sums, see mc/run/archive.h.
-  template <class Archive> void archive(Archive& a) {
-    a(count, sum, squares, largest, channel_sums, channel_squares, channel_largest, channel_smallest);
-  }
-
-  /// Variance of the mean of independent samples, per channel; infinite for fewer than 2 samples.
-  Eigen::Array3d variance_of_mean() const;
-
-  /// Effective sample count: squared deviations of luminance from the mean, over the square of the brightest sample's
-  /// deviation. Infinite if all samples are equal. Below 2 one sample dominates the pixel: it has too few samples of
-  /// the paths that make it bright, and its error bar is unreliable.
-  ///   light  : light path contributions to the pixel.
-  ///   weight : factor of a light path contribution relative to a sample.
-  double effective_sample_count(const LightSums& light = {}, double weight = 0) const;
-
-  /// Jump J of the samples per channel: large for two distinct values, as at an edge; 0 for an even spread, as on a
-  /// slope. J = R sqrt(3 b / 2 - 1 / 2), clamped to [0, R]. R is the range of the samples. b is their variance over the
-  /// variance of two values at the ends of the range with the same mean [BhatiaDavis00]. J = R if the farthest sample
-  /// is rare: beyond three standard deviations from the mean.
-  Eigen::Array3d jump() const;
-};
-
 /// Estimate of a pixel from its samples.
 struct PixelEstimate {
   Eigen::Array3d mean = Eigen::Array3d::Zero();           ///< Mean per channel.
@@ -119,8 +56,8 @@ struct PixelEstimate {
 
 /// Mean relative standard error of pixels, with an upper bound of 95 % confidence. The estimate itself is uncertain: a
 /// few pixels may contribute most of the noise, and each estimates its variance from two point sets. A second bound
-/// uses the samples as if independent, with SampleSums::effective_sample_count as degrees of freedom. The smaller bound
-/// counts. Pixels that share noise count for one.
+/// uses the samples as if independent, with SampleStatistics::effective_sample_count as degrees of freedom. The smaller
+/// bound counts. Pixels that share noise count for one.
 struct RelativeError {
   double value = mc::infinity<double>, ///< The estimate.
       bound = mc::infinity<double>;    ///< Upper bound with 95 % confidence.
@@ -196,6 +133,8 @@ class Film {
   void add(const FilmBlock& block, Film* window = nullptr);
   /// Adds the splats of row y in a window, and their counts, and clears them there.
   void take_row(Film& window, int y);
+  /// Size of the sums, and of their archive but for a few numbers [bytes].
+  std::size_t bytes() const;
   /// The sums, see mc/run/archive.h. A film is read into one with the same size, sets and options.
   template <class Archive> void archive(Archive& a) {
     using mc::fixed_size;
@@ -281,10 +220,10 @@ class Film {
 
   int width_, height_, sets_;
   FilmOptions options_;
-  std::vector<Eigen::Array3d> sums_; ///< Radiance sums: sets_ entries for each pixel.
-  std::vector<float> counts_;        ///< Sample counts, in the same order.
-  std::vector<double> weights_;      ///< Sums of splat weights, in the same order; empty without splats.
-  std::vector<SampleSums> samples_;  ///< By sample_index().
+  std::vector<Eigen::Array3d> sums_;      ///< Radiance sums: sets_ entries for each pixel.
+  std::vector<float> counts_;             ///< Sample counts, in the same order.
+  std::vector<double> weights_;           ///< Sums of splat weights, in the same order; empty without splats.
+  std::vector<SampleStatistics> samples_; ///< By sample_index().
   std::vector<std::uint64_t> rays_;
   std::vector<Eigen::Array3d> light_; ///< Light path sums, in the order of sums_; empty without light paths.
   std::vector<LightSums> light_sums_; ///< One entry for each pixel.

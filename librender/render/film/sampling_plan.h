@@ -31,6 +31,9 @@ struct Tiling {
       y = 0;    ///< Row of the film's first pixel in its tile.
 };
 
+/// Memory of adaptive_plan() and its plan for each pixel [bytes].
+inline constexpr int planning_bytes = 72;
+
 /// Plans samples in proportion to the error that a pilot measured. See docs/methods/adaptive-sampling.md. The rate of a
 /// pixel follows from its neighbours within 8 pixels, never from its own samples. The samples of the pilot and the
 /// planned samples are averaged with weights that do not depend on their values. So no pixel is biased, and its error

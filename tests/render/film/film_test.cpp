@@ -169,29 +169,6 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
   EXPECT_NEAR(film.relative_errors().worst_block.value, std::sqrt(worst), 1e-12);
 }
 
-// Two values, a slope, a rare sample among others, and equal samples.
-TEST(SampleSums, JumpIsZeroOnSlopes) {
-  mc::Pcg random(8);
-  for (int n = 2; n < 200; ++n) {
-    SampleSums two, slope, rare, equal;
-    for (int i = 0; i < n; ++i) {
-      const double u = random.uniform<double>(), even = (i + 0.5) / n;
-      two.add(i % 7 == 1 ? Eigen::Array3d(3, 0.5, 1e-20) : Eigen::Array3d(1, 0.25, 0));
-      slope.add(Eigen::Array3d(even, 1 - 2e-9 * even, 1e20 * mc::sqr(even)));
-      rare.add(i == n / 2 ? Eigen::Array3d(-1, 2, 50) : Eigen::Array3d(0.3, 0.6, 1) * u);
-      equal.add(Eigen::Array3d(0.1, 1e20, 0));
-    }
-    EXPECT_TRUE(two.jump().isApprox(Eigen::Array3d(2, 0.25, 1e-20), 1e-9)) << n;
-    EXPECT_TRUE((equal.jump() == 0).all()) << n;
-    if (n < 20) continue; // a few values are not spread evenly
-    const Eigen::Array3d range = rare.channel_largest - rare.channel_smallest;
-    EXPECT_TRUE(rare.jump().isApprox(range, 1e-12)) << n;
-    EXPECT_NEAR(slope.jump()[0], std::sqrt(n - 1.0) / n, 1e-9);
-    EXPECT_EQ(slope.jump()[1], 0); // equal up to rounding
-    EXPECT_LE(slope.jump()[2], 0.37e20);
-  }
-}
-
 // An edge crosses each pixel at a random place, and every set of 16 points counts a whole number of samples beyond it.
 // The stated variance is at least the true variance on average, and at most a third larger.
 TEST(Film, AgreeingSets_KeepVarianceOfEdge) {

@@ -155,7 +155,7 @@ TEST(SamplingPlan, LightPathScaleFollowsVariance) {
     const double light_variance = film.estimate(3, 3).light_variance[0],
                  of_samples = film.estimate(3, 3).variance[0] - light_variance;
     EXPECT_NEAR(p.light_path_scale, std::clamp(std::sqrt(light_variance * 5 / (of_samples * double(rays))), 1.0, 4.0),
-                1e-9);
+                1e-6);
     return p.light_path_scale;
   };
   EXPECT_GT(plan(0.3, 40), 1.1);

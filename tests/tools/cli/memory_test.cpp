@@ -133,6 +133,7 @@ TEST_F(MemoryOfCommands, PeakOfPictures_IsAsStated) {
   expect_peak_as_stated(render);
   expect_peak_as_stated(render + " --splat on");
   expect_peak_as_stated(render + " --checkpoint a.ckpt");
+  expect_peak_as_stated("render " + cbox + " --size 1024x1024 --spp 18 --max-depth 1 -o a.exr"); // plans its samples
 }
 
 TEST_F(MemoryOfCommands, PeakOfMeasurements_IsAsStated) {
