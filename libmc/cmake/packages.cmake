@@ -1,5 +1,5 @@
-# Packages by CPack: cpack -G DEB in the build folder of the preset `package` writes one .deb a component; cpack
-# --config CPackSourceConfig.cmake the source archive. tools/package.sh does both and tests the result.
+# Packages by CPack: cpack -G DEB in the build folder of the preset `package` writes one .deb a component.
+# tools/package.sh calls it and tests the result.
 set(CPACK_PACKAGE_NAME libmc)
 set(CPACK_PACKAGE_VENDOR "the authors of libmc")
 set(CPACK_PACKAGE_CONTACT "the authors of libmc <libmc@users.noreply.github.com>")
@@ -43,7 +43,4 @@ if(TARGET libmc_python)
   mc_package(python3-libmc python "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, carlo ${same_version}"
     "Monte Carlo integration and sampling for NumPy arrays")
 endif()
-set(CPACK_SOURCE_GENERATOR TXZ)
-set(CPACK_SOURCE_PACKAGE_FILE_NAME libmc-${PROJECT_VERSION})
-set(CPACK_SOURCE_IGNORE_FILES /[.]git/ /build/ /out/ /_skbuild/ [.]egg-info/ __pycache__)
 include(CPack)
