@@ -77,17 +77,17 @@ struct SampleStatistics {
   /// Variance of the mean of independent samples, per channel; infinite for fewer than 2 samples.
   Eigen::Array3d variance_of_mean() const;
 
-  /// Effective sample count: squared deviations of luminance from the mean, over the square of the brightest sample's
-  /// deviation. Infinite if all samples are equal. Below 2 one sample dominates the pixel: it has too few samples of
-  /// the paths that make it bright, and its error bar is unreliable.
-  ///   light  : light path contributions to the pixel.
+  /// Effective sample count: the sum of (y - mean)^2 over all samples, divided by that of the brightest; y is luminance.
+  /// Infinite if all samples are equal. Below 2 one sample dominates the pixel: it has too few samples of the paths
+  /// that make it bright, and its error bar is unreliable.
+  ///   light  : light path contributions to the pixel; they count as samples without a mean.
   ///   weight : factor of a light path contribution relative to a sample.
   double effective_sample_count(const LightSums& light = {}, double weight = 0) const;
 
-  /// Jump J of the samples per channel: large for two distinct values, as at an edge; 0 for an even spread, as on a
-  /// slope. J = R sqrt(3 b / 2 - 1 / 2), clamped to [0, R]. R is the range of the samples. b is their variance over the
-  /// variance of two values at the ends of the range with the same mean [BhatiaDavis00]. J = R if the farthest sample
-  /// is rare: beyond three standard deviations from the mean.
+  /// Jump J of the samples per channel: the range R for two distinct values, as at an edge; 0 for an even spread, as on
+  /// a slope. J = R sqrt(clamp(3 b / 2 - 1 / 2, 0, 1)). b is the variance of the samples over that of two values at the
+  /// ends of their range with the same mean [BhatiaDavis00]. But J = R if any sample is farther than three standard
+  /// deviations from the mean.
   Eigen::Array3d jump() const;
 };
 

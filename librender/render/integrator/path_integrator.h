@@ -18,8 +18,10 @@ struct PathOptions {
 
 /// Light that a path finds.
 struct RadianceContribution {
-  Spectrum value;       ///< Contribution if no light path can find it.
-  double mis_ratio = 0; ///< Squared density of light paths over the squared density of this technique; 0: none find it.
+  /// Contribution with its MIS weight against the other techniques of camera paths, but not against light paths.
+  Spectrum value;
+  /// Squared density of light paths over the sum of the squared densities of camera paths; 0: no light path finds it.
+  double mis_ratio = 0;
 
   /// The contribution with its MIS weight against light paths.
   Spectrum weighted() const { return mis_ratio == 0 ? value : Spectrum(value * Float(1 / (1 + mis_ratio))); }
@@ -69,7 +71,7 @@ struct NoLightPaths {
 ///   Media       : a path scatters at a sampled distance, or reaches the surface; see HomogeneousMedium::sample_edge().
 ///   Splitting   : a path splits at its first non-delta vertex, by default in two. The path to this vertex and the
 ///                 direct lighting cost much of the time and contribute little of the variance [ArvoKirk90].
-///   Roulette    : from the fourth edge on a path survives with probability min(.99, max(4, g) max(beta) eta_scale).
+///   Roulette    : after four edges a path survives with probability min(.99, max(4, g) max(beta) eta_scale).
 ///                 The factor 4 balances variance against cost. g is the guiding pdf ratio since the last rough vertex.
 ///                 Without g, paths toward a small lamp would rarely survive: their throughput is as small as the lamp.
 /// See docs/methods/path-tracing.md and docs/methods/russian-roulette.md.
@@ -95,7 +97,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     int edges = 0;          ///< Number of edges so far.
     RayCone cone = {};      ///< Footprint of the path.
     MediumStack media = {}; ///< Media along the ray.
-    /// Ratio of light paths to this path.
+    /// What the policy knows about light paths that would make this path.
     [[no_unique_address]] typename LightMis::PartialWeight partial_mis = {};
   };
 
@@ -162,7 +164,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
 
   // Building blocks of trace(), which path reuse combines in another way.
 
-  /// Starts a path with a camera ray.
+  /// Starts a path with a camera ray. Its first edge begins on the lens; the ray may begin on the near plane.
   ///   media : media at the origin of the ray, and in the space before the near plane.
   PathState start_path(const Ray& ray, const MediumStack& media) const {
     PathState state{ray, ray.o - scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d};
@@ -172,7 +174,8 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     return state;
   }
 
-  /// Traces an edge to the next vertex. Returns false if the path ends there.
+  /// Traces an edge to the next vertex, counts it, and updates throughput, footprint, media and the state of the policy.
+  /// Returns false if the path ends there.
   template <class Stream> bool intersect(PathState& state, Vertex& vertex, Stream& stream, std::uint64_t& rays) const {
     ++state.edges;
     vertex.surface = nullptr;
@@ -264,7 +267,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
 
  private:
   // A vertex within a medium, with the phase function as BSDF and the direction of arrival as axis. Media that scatter
-  // need the scene's BSDFs to be of type Bsdf.
+  // need the scene's BSDFs to be of type Bsdf, and exclude light paths.
   bool scatter_in_medium(PathState& state, Vertex& vertex, const Vec3& p) const {
     if (filters_textures_) state.cone.advance((p - state.previous_point).norm());
     vertex.escapes = false;
