@@ -77,9 +77,9 @@ struct SampleStatistics {
   /// Variance of the mean of independent samples, per channel; infinite for fewer than 2 samples.
   Eigen::Array3d variance_of_mean() const;
 
-  /// Effective sample count: the sum of (y - mean)^2 over all samples, divided by that of the brightest; y is luminance.
-  /// Infinite if all samples are equal. Below 2 one sample dominates the pixel: it has too few samples of the paths
-  /// that make it bright, and its error bar is unreliable.
+  /// Effective sample count: the sum of (y - mean)^2 over all samples, divided by that of the brightest; y is the
+  /// luminance. Infinite if all samples are equal. Below 2 one sample dominates the pixel: it has too few samples of
+  /// the paths that make it bright, and its error bar is unreliable.
   ///   light  : light path contributions to the pixel; they count as samples without a mean.
   ///   weight : factor of a light path contribution relative to a sample.
   double effective_sample_count(const LightSums& light = {}, double weight = 0) const;

@@ -174,7 +174,7 @@ template <class SceneType, class LightMis = NoLightPaths> class PathIntegrator {
     return state;
   }
 
-  /// Traces an edge to the next vertex, counts it, and updates throughput, footprint, media and the state of the policy.
+  /// Traces an edge to the next vertex, counts it, and updates throughput, footprint, media and the policy's state.
   /// Returns false if the path ends there.
   template <class Stream> bool intersect(PathState& state, Vertex& vertex, Stream& stream, std::uint64_t& rays) const {
     ++state.edges;
