@@ -101,34 +101,41 @@ json call_worker(json request, const WorkerOptions& options) {
   return std::move(message["result"]);
 }
 
-Session::Session(json request, std::size_t numbers, const WorkerOptions& options)
-    : who_(request["who"]), numbers_(numbers), file_(memfd_create("session", MFD_CLOEXEC)) {
-  const std::size_t bytes = numbers * sizeof(double);
+SharedNumbers::SharedNumbers(const std::string& who, std::size_t count)
+    : count_(count), file_(memfd_create("session", MFD_CLOEXEC)) {
+  const std::size_t bytes = count * sizeof(double);
   const bool sized = file_ >= 0 && ftruncate(file_, static_cast<off_t>(bytes)) == 0;
   void* const at = sized ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0) : MAP_FAILED;
-  mc::require(at != MAP_FAILED, "{}: no shared memory: {}", who_, std::strerror(errno));
-  memory_ = static_cast<double*>(at);
-  worker_ = std::make_unique<ChildProcess>(LaunchOptions{.arguments = {options.program, "worker"}, .shared = file_});
+  const int reason = errno;
+  if (at == MAP_FAILED && file_ >= 0) close(file_);
+  mc::require(at != MAP_FAILED, "{}: no shared memory: {}", who, std::strerror(reason));
+  numbers_ = static_cast<double*>(at);
+}
+
+SharedNumbers::~SharedNumbers() {
+  munmap(numbers_, count_ * sizeof(double));
+  close(file_);
+}
+
+Session::Session(json request, std::size_t numbers, const WorkerOptions& options)
+    : who_(request["who"]), memory_(who_, numbers),
+      worker_(LaunchOptions{.arguments = {options.program, "worker"}, .shared = memory_.file()}) {
   request["session"] = numbers;
-  send(worker_->input(), with_limits(request, options.limits));
+  send(worker_.input(), with_limits(request, options.limits));
 }
 
 // The worker ends its processes when its input closes.
 Session::~Session() {
-  if (worker_) {
-    worker_->close_input();
-    worker_->wait();
-  }
-  if (memory_) munmap(memory_, numbers_ * sizeof(double));
-  if (file_ >= 0) close(file_);
+  worker_.close_input();
+  worker_.wait();
 }
 
 void Session::ask(std::uint64_t question) {
-  write_all(worker_->input(), &question, sizeof question); // a worker that has ended has left a message
+  write_all(worker_.input(), &question, sizeof question); // a worker that has ended has left a message
   Bytes answer;
   std::uint64_t first = 0;
   do {
-    if (!read_some(worker_->output(), answer)) complain(who_, *worker_);
+    if (!read_some(worker_.output(), answer)) complain(who_, worker_);
     if (answer.size() >= sizeof first) std::memcpy(&first, answer.data(), sizeof first);
   } while (first != answered && !is_whole(answer));
   if (first == answered) return;

@@ -41,6 +41,25 @@ struct WorkerOptions {
 ///   throws : Error with the worker's message, Interrupted.
 nlohmann::json call_worker(nlohmann::json request, const WorkerOptions& options);
 
+/// Numbers in memory that processes share by a file.
+class SharedNumbers {
+ public:
+  /// `who` begins the message.
+  ///   throws : Error where the system refuses the memory.
+  SharedNumbers(const std::string& who, std::size_t count);
+  ~SharedNumbers();
+  SharedNumbers(const SharedNumbers&) = delete;
+  SharedNumbers& operator=(const SharedNumbers&) = delete;
+
+  std::span<double> numbers() { return {numbers_, count_}; }
+  int file() const { return file_; }
+
+ private:
+  std::size_t count_;
+  int file_;
+  double* numbers_ = nullptr;
+};
+
 /// A worker that answers questions. The task of its request calls answer_questions.
 class Session {
  public:
@@ -50,17 +69,15 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  std::span<double> memory() { return {memory_, numbers_}; }
+  std::span<double> memory() { return memory_.numbers(); }
   /// Asks about the contents of the memory, and returns when the answer is there.
   ///   throws : Error with the worker's message; no later question is allowed.
   void ask(std::uint64_t question);
 
  private:
   std::string who_;
-  std::size_t numbers_;
-  double* memory_ = nullptr;
-  int file_ = -1;
-  std::unique_ptr<ChildProcess> worker_;
+  SharedNumbers memory_;
+  ChildProcess worker_;
 };
 
 /// In the child of a session: calls answer(question, memory) for each question until the input ends.

@@ -25,18 +25,24 @@ void leave_terminal() {
   errno = saved;
 }
 
+// Asks without changing the handler: a signal that arrives meanwhile stays ignored.
+bool is_ignored(int signal) {
+  struct sigaction now {};
+  return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 } // namespace
 
 Interrupt::Interrupt() {
   raised = false;
   first_signal = 0;
   for (const int signal : signals)
-    if (std::signal(signal, raise) == SIG_IGN) std::signal(signal, SIG_IGN);
+    if (!is_ignored(signal)) std::signal(signal, raise);
 }
 
 Interrupt::~Interrupt() {
   for (const int signal : signals)
-    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+    if (!is_ignored(signal)) std::signal(signal, SIG_DFL);
 }
 
 void Interrupt::raise(int signal) {
@@ -45,7 +51,7 @@ void Interrupt::raise(int signal) {
   first_signal.compare_exchange_strong(none, signal);
   raised = true;
   // A shell starts background programs with SIGINT ignored: then it stays so.
-  if (std::signal(SIGINT, SIG_DFL) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+  if (!is_ignored(SIGINT)) std::signal(SIGINT, SIG_DFL);
 }
 
 } // namespace carlo
