@@ -68,9 +68,9 @@ std::vector<std::uint32_t> row_order(const Crop& crop, std::size_t border, const
 RenderJob::RenderJob(const Scene& scene, const RenderOptions& options)
     : options_(checked(scene, options)), extent_(extent_of(options)), splat_(splat_filter_for(scene, options)),
       light_tracer_(light_tracer_for(scene, options)), points_(options.sampler, options.seed, set_size_of(options)),
-      renderers_(scene, options, points_, extent_, splat_, light_tracer()),
-      row_order_(row_order(extent_.crop, border(), renderers_.any_tiling())), film_(checked_film()),
-      taken_(width() * height()), next_taken_(taken_.size()) {
+      renderers_(scene, options, points_, extent_, splat_, light_tracer()), film_(checked_film()),
+      row_order_(row_order(extent_.crop, border(), renderers_.any_tiling())), taken_(width() * height()),
+      next_taken_(taken_.size()) {
   film_.set_noise_area(noise_area());
   if (light_tracer_)
     light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
@@ -115,7 +115,8 @@ double RenderJob::elapsed() const {
 }
 
 double RenderJob::wanted() const {
-  if (mean_ == 0 || !is_limited()) return options_.spp;
+  if (!is_limited()) return options_.spp;
+  if (mean_ == 0) return mc::infinity<double>;
   const double by_time = options_.seconds ? mean_ * *options_.seconds / elapsed() : mc::infinity<double>;
   return options_.target_error ? std::min(by_time, wanted_by_error()) : by_time;
 }

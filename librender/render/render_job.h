@@ -138,12 +138,12 @@ class RenderJob {
   PixelPoints points_;
   RendererChoice renderers_;
   std::optional<LightTracingPass> light_tracing_pass_;
-  std::vector<std::uint32_t> row_order_; ///< Rows that write to common pixels keep their order in every crop.
 
   Film film_;
-  std::optional<Film> window_;       ///< Splats of the pass on rows that are not complete; none in the first pass.
-  std::vector<std::uint32_t> taken_, ///< Number of samples of every pixel before the pass.
-      next_taken_;                   ///< The same for pixels that were absorbed in the pass.
+  std::vector<std::uint32_t> row_order_; ///< Rows that write to common pixels keep their order in every crop.
+  std::optional<Film> window_;           ///< Splats of the pass on rows that are not complete; none in the first pass.
+  std::vector<std::uint32_t> taken_,     ///< Number of samples of every pixel before the pass.
+      next_taken_;                       ///< The same for pixels that were absorbed in the pass.
   SamplingPlan plan_;
   double pilot_mean_ = 0;        ///< Samples per pixel of the pilot; 0 until the plan is made.
   double mean_ = 0;              ///< Samples per pixel after the finished passes.

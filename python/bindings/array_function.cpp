@@ -20,8 +20,8 @@ void ArrayFunction::operator()(const Array& x, std::span<double> values) const {
   const Array result = call(x);
   if (result.ndim() == 0) return std::fill(values.begin(), values.end(), *result.data());
   mc::require(static_cast<std::size_t>(result.size()) == values.size(),
-              "{} returned an array of shape {}; before it returned {} numbers for each point", what_,
-              shape_text(result), values.size() / static_cast<std::size_t>(x.shape(0)));
+              "{} returned an array of shape {}; {} numbers for each of the {} points are needed", what_,
+              shape_text(result), values.size() / static_cast<std::size_t>(x.shape(0)), x.shape(0));
   std::copy_n(result.data(), values.size(), values.begin());
 }
 

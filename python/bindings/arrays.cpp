@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 namespace bindings {
 
@@ -15,7 +16,9 @@ Array to_array(const py::handle& object, const std::string& what) {
   }
   mc::require(std::string_view("biuf").find(any.dtype().kind()) != std::string_view::npos,
               "{}: an array of {}; real numbers are needed", what, py::str(any.dtype()).cast<std::string>());
-  return py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
+  Array doubles = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(any);
+  if (!doubles) throw std::bad_alloc();
+  return doubles;
 }
 
 std::string shape_text(const py::array& array) { return py::str(array.attr("shape")).cast<std::string>(); }

@@ -21,11 +21,11 @@ class ArrayLike : public py::object {
   PYBIND11_OBJECT_DEFAULT(ArrayLike, py::object, [](PyObject*) { return true; })
 };
 
-/// The name of a file: text, or an object with __fspath__.
+/// The name of a file: text, bytes, or an object with __fspath__.
 class PathLike : public py::object {
  public:
   PYBIND11_OBJECT_DEFAULT(PathLike, py::object, [](PyObject*) { return true; })
-  std::string text() const { return py::str(py::module_::import("os").attr("fspath")(*this)).cast<std::string>(); }
+  std::string text() const { return py::module_::import("os").attr("fsencode")(*this).cast<std::string>(); }
 };
 
 /// A contiguous array of doubles.
@@ -82,5 +82,5 @@ template <> struct pybind11::detail::handle_type_name<bindings::ArrayLike> {
   static constexpr auto name = const_name("ArrayLike");
 };
 template <> struct pybind11::detail::handle_type_name<bindings::PathLike> {
-  static constexpr auto name = const_name("Union[str, os.PathLike]");
+  static constexpr auto name = const_name("Union[str, bytes, os.PathLike]");
 };

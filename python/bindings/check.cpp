@@ -44,6 +44,9 @@ struct Functions {
   bool may_fail;
 
   std::size_t columns() const { return static_cast<std::size_t>(domain.any.point_size); }
+  bool is_failed(std::span<const double> x) const {
+    return may_fail && std::all_of(x.begin(), x.end(), [](double v) { return std::isnan(v); });
+  }
 
   std::vector<double> densities(std::span<const mc::PointArray> x) const {
     if (x.empty()) return {};
@@ -74,7 +77,7 @@ struct Functions {
     std::vector<std::optional<Distribution::Sample>> drawn(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) {
       const std::span<const double> row = span_of(std::as_const(x)).subspan(i * columns(), columns());
-      if (may_fail && std::all_of(row.begin(), row.end(), [](double v) { return std::isnan(v); })) continue;
+      if (is_failed(row)) continue;
       Distribution::Sample& s = drawn[i].emplace();
       std::copy(row.begin(), row.end(), s.x.begin());
       s.pdf = densities[i];
@@ -112,6 +115,11 @@ mc::Subject::Draw draw_of(const Samples& s, std::size_t row) {
   const mc::PointArray& x = s.points[row];
   const mc::AnyDomain& domain = s.functions->domain.any;
   d.pdf_positive = s.densities[row] > 0 && std::isfinite(s.densities[row]);
+  const auto coordinates = std::span(x).first(s.functions->columns());
+  if (s.functions->is_failed(coordinates)) {
+    d.kind = Kind::failed;
+    return d;
+  }
   if (!std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) d.kind = Kind::not_finite;
   else if (!domain.contains(x)) d.kind = Kind::outside;
   if (d.kind != Kind::point) return d;
@@ -125,6 +133,7 @@ mc::Subject subject_of(const std::shared_ptr<const Samples>& s, std::uint64_t se
   const mc::AnyDomain& domain = s->functions->domain.any;
   subject.dim = domain.dim;
   subject.axes = domain.axes;
+  subject.may_fail = s->functions->may_fail;
   const auto shuffler = std::make_shared<carlo::RowShuffler>(static_cast<std::uint32_t>(s->points.size()), seed);
   subject.draw = [s, shuffler](std::uint64_t stream, std::size_t n, std::vector<mc::Subject::Draw>& out) {
     const std::uint64_t first = shuffler->open(stream, n);
@@ -181,7 +190,9 @@ mc::Report check_array(const std::shared_ptr<const Functions>& f, const py::hand
     if (const mc::Subject::Draw d = draw_of(*all, i); d.kind == mc::Subject::Draw::Kind::point)
       ordered.points.push_back(d.v);
   const py::gil_scoped_release release;
-  return carlo::check_rows(subject, ordered, dependent, options);
+  return carlo::check_rows(subject, ordered, dependent, options,
+                           {"dependent=True", "every n-th row of a Markov chain may be independent, dependent=True "
+                                              "accepts a point set"});
 }
 
 struct Settings {
@@ -209,7 +220,13 @@ mc::Report run_laws(Distribution d, const mc::LawOptions& laws) {
 
 mc::Report check(const py::object& sampler, const py::object& pdf, const py::object& domain, const py::object& invert,
                  const Settings& s) {
-  if (py::isinstance<AnyWarp>(sampler) && pdf.is_none()) {
+  mc::require(s.laws.statistics.samples > 0, "check: 0 samples; 1000 or more are needed");
+  mc::require(s.uniforms >= 0, "check: uniforms {}; a positive number, or 0 for that of the domain, is needed",
+              s.uniforms);
+  if (py::isinstance<AnyWarp>(sampler)) {
+    mc::require(
+        pdf.is_none() && domain.is_none() && invert.is_none(),
+        "check: a warp has a pdf, domain and inverse of its own; leave out these arguments, or pass its sample");
     Distribution d = to_distribution(sampler.cast<const AnyWarp&>());
     if (!s.laws.name.empty()) d.name = s.laws.name;
     return run_laws(std::move(d), s.laws);
@@ -226,6 +243,8 @@ mc::Report check(const py::object& sampler, const py::object& pdf, const py::obj
   const bool draws = PyCallable_Check(sampler.ptr()) != 0;
   std::string name = s.laws.name;
   if (name.empty()) name = draws ? name_of(sampler) : "samples";
+  mc::require(draws || (invert.is_none() && s.uniforms == 0),
+              "check: invert and uniforms belong to a function, and the samples are an array; leave them out");
   if (!draws) return check_array(f, sampler, s.dependent, s.laws.statistics, name);
   f->sample.emplace(sampler.cast<py::function>(), "check: sample", f->uniforms == 1, f->stop);
   if (!invert.is_none()) f->invert.emplace(invert.cast<py::function>(), "check: invert", f->columns() == 1, f->stop);

@@ -7,6 +7,8 @@
 #include <mc/warp/spherical_rectangle.h>
 #include <mc/warp/spherical_triangle.h>
 
+#include <algorithm>
+
 namespace bindings {
 
 namespace {
@@ -60,7 +62,17 @@ void bind_directions(py::module_& m) {
              return make_warp("SphereLight(center=({:g}), radius={:g})",
                               mc::SphereLight<double>(vector(center), radius), fmt::join(center, ", "), radius);
            }),
-           arg("center"), arg("radius"));
+           arg("center"), arg("radius"))
+      .def_property_readonly(
+          "frame",
+          [](const BoundWarp<mc::SphereLight<double>>& w) {
+            const mc::Frame<double>& f = w.get().frame();
+            Array rows({3, 3});
+            double* to = rows.mutable_data();
+            for (const auto& axis : {f.x, f.y, f.z}) to = std::copy_n(axis.data(), 3, to);
+            return rows;
+          },
+          "Axes of the directions, one per row (3, 3): directions @ frame are in the world.");
   bind_patch<mc::SphericalRectangle<double>>(m, "SphericalRectangle", "corner", "edge1", "edge2");
   bind_patch<mc::SphericalTriangle<double>>(m, "SphericalTriangle", "a", "ab", "ac");
 }

@@ -64,7 +64,8 @@ Array to_unit(const BoundDomain& d, const ArrayLike& x) {
   for (std::size_t i = 0; i < rows.count; ++i) {
     const mc::PointArray point = point_at(&rows.values()[i * rows.columns], rows.columns);
     if (!d.any.contains(point)) detail::refuse_outside(point.data(), rows.columns, i);
-    std::copy_n(d.any.to_unit(point).begin(), dim, v.mutable_data() + i * dim);
+    const mc::AnyDomain::Coordinates at = d.any.to_unit(point);
+    std::transform(at.begin(), at.begin() + dim, v.mutable_data() + i * dim, mc::clamp_to_unit<double>);
   }
   return v;
 }
@@ -92,7 +93,7 @@ void bind_domain_class(py::module_& m) {
 Made from text, or taken from a warp (`warp.domain`):
   "x=0:1"            an interval; either end may be inf or -inf
   "x=0:1,y=-1:2"     a rectangle; parts separated by commas are factors
-  "disk", "annulus=R", "triangle", "ball", "sphere", "hemisphere"
+  "disk", "annulus=R", "triangle", "ball", "sphere", "hemisphere", "rotation"
 Points are arrays of shape (..., point_size), or of any shape if point_size is 1. Chart coordinates v in [0,1) have
 shape (..., dim) in the same way.)")
       .def(py::init(&parse), py::arg("text"))
@@ -100,9 +101,10 @@ shape (..., dim) in the same way.)")
           "dim", [](const BoundDomain& d) { return d.any.dim; }, "Number of dimensions of the chart.")
       .def_property_readonly(
           "point_size", [](const BoundDomain& d) { return d.any.point_size; }, "Number of coordinates of a point.")
-      .def("from_unit", &from_unit, py::arg("v"), "Points of the domain: v (..., dim) -> x (..., point_size).")
+      .def("from_unit", &from_unit, py::arg("v"),
+           "Points of the domain: v (..., dim) -> x (..., point_size). v = 0 may give an infinite end.")
       .def("to_unit", &to_unit, py::arg("x"),
-           "Inverse of from_unit: x (..., point_size) -> v (..., dim). Raises Error for points outside.")
+           "Inverse of from_unit: x (..., point_size) -> v (..., dim) in [0,1). Raises Error for points outside.")
       .def("jacobian", &jacobian, py::arg("v"), "|dx/dv| of from_unit: v (..., dim) -> (...).")
       .def("contains", &contains, py::arg("x"),
            "Whether points lie in the domain, to a few eps: x (...) -> bool (...).")

@@ -8,6 +8,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace bindings {
@@ -38,7 +40,8 @@ Array weights(const ArrayLike& densities, const py::object& counts, const std::s
     std::copy_n(given.data(), k, n.begin());
   }
   for (const double one : span_of(p)) mc::require(one >= 0, "weights: a density of {}; it must be >= 0", one);
-  for (const double one : n) mc::require(one >= 0, "weights: a count of {}; it must be >= 0", one);
+  for (const double one : n)
+    mc::require(one >= 0 && std::isfinite(one), "weights: a count of {}; it must be finite and >= 0", one);
   const Heuristic heuristic = heuristic_of(name, beta, alpha);
   Array w(std::vector<py::ssize_t>(p.shape(), p.shape() + p.ndim()));
   for (std::size_t row = 0; row < static_cast<std::size_t>(p.size()); row += k)
@@ -47,11 +50,32 @@ Array weights(const ArrayLike& densities, const py::object& counts, const std::s
   return w;
 }
 
+// Densities, or numbers of samples, of a heuristic.
+py::array_t<double> checked(const ArrayLike& values, const std::string& what, double most) {
+  Array array = to_array(values, what);
+  for (const double one : span_of(std::as_const(array)))
+    mc::require(one >= 0 && one <= most, "{} is {}; it must be {}>= 0", what, one,
+                std::isinf(most) ? "" : "finite and ");
+  return array;
+}
+
 template <double (*F)(double, double, double, double)> void bind_heuristic(py::module_& m, const char* name) {
   m.def(
       name,
-      [](py::array_t<double> f, py::array_t<double> g, py::array_t<double> n_f, py::array_t<double> n_g) {
-        return py::vectorize(F)(std::move(n_f), std::move(f), std::move(n_g), std::move(g));
+      [name = std::string(name)](const ArrayLike& f, const ArrayLike& g, const ArrayLike& n_f, const ArrayLike& n_g) {
+        constexpr double most = std::numeric_limits<double>::max();
+        const py::array_t<double> of_f = checked(f, name + ": f", mc::infinity<double>),
+                                  of_g = checked(g, name + ": g", mc::infinity<double>),
+                                  count_f = checked(n_f, name + ": n_f", most),
+                                  count_g = checked(n_g, name + ": n_g", most);
+        try {
+          py::module_::import("numpy").attr("broadcast_shapes")(of_f.attr("shape"), of_g.attr("shape"),
+                                                                count_f.attr("shape"), count_g.attr("shape"));
+        } catch (const py::error_already_set&) {
+          throw mc::Error(fmt::format("{}: arrays of shapes {}, {}, {} and {} cannot be broadcast", name,
+                                      shape_text(of_f), shape_text(of_g), shape_text(count_f), shape_text(count_g)));
+        }
+        return py::vectorize(F)(count_f, of_f, count_g, of_g);
       },
       arg("f"), arg("g"), arg("n_f") = 1.0, arg("n_g") = 1.0,
       (contract(name) + "\n\nArrays are broadcast. f, g: densities; n_f, n_g: numbers of samples.").c_str());
@@ -75,7 +99,8 @@ py::tuple to_tuple(const mc::Estimate& e) { return py::make_tuple(e.value, e.std
 void add(mc::ControlVariates& c, std::size_t controls, const ArrayLike& f, const ArrayLike& g) {
   const Array values = to_array(f, "ControlVariates: f");
   const Rows rows = to_rows(g, controls, "ControlVariates: g");
-  mc::require(values.ndim() == 1 && rows.count == static_cast<std::size_t>(values.size()),
+  mc::require(values.ndim() == 1, "ControlVariates: f of shape {}; the shape must be (n,)", shape_text(values));
+  mc::require(rows.count == static_cast<std::size_t>(values.size()),
               "ControlVariates: {} values of f and {} of the controls; as many are needed", values.size(), rows.count);
   const std::uint64_t first = c.count() + c.non_finite_count();
   for (std::size_t i = 0; i < rows.count; ++i)
@@ -105,7 +130,10 @@ void bind_control_variates(py::module_& m) {
           "Coefficients (k,) of least variance. Apply them to other samples.")
       .def(
           "estimate",
-          [](const Controls& c, const std::vector<double>& beta) { return to_tuple(c.moments.estimate(beta)); },
+          [](const Controls& c, const ArrayLike& beta) {
+            const Array coefficients = to_array(beta, "ControlVariates: beta");
+            return to_tuple(c.moments.estimate(span_of(coefficients)));
+          },
           arg("beta"), "(value, std_error) with the coefficients beta (k,).")
       .def(
           "without_controls", [](const Controls& c) { return to_tuple(c.moments.without_controls()); },

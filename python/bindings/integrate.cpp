@@ -80,7 +80,8 @@ PointMap map_of(std::int64_t dim) {
 PointMap to_point_map(const py::handle& domain) {
   if (py::isinstance<AnyWarp>(domain)) return map_of(domain.cast<const AnyWarp&>());
   if (py::isinstance<BoundDomain>(domain) || py::isinstance<py::str>(domain)) return map_of(to_domain(domain));
-  if (py::isinstance<py::int_>(domain)) return map_of(domain.cast<std::int64_t>());
+  if (py::isinstance<py::int_>(domain) || py::isinstance(domain, py::module_::import("numpy").attr("integer")))
+    return map_of(domain.cast<std::int64_t>());
   return map_of(to_array(domain, "domain"));
 }
 
@@ -163,8 +164,9 @@ constexpr const char* integrate_doc = R"(Integral of f over a domain, with a con
 f      : a function of an array x of points: (n, d) -> (n,), or (n, k) for k integrals of the same evaluations. It is
          called with up to 4096 points at a time, and with two points first.
 domain : a list of d pairs (lo, hi), which may be infinite; an integer d for the unit cube; a Domain, or its text; a
-         warp, which then draws the points: the integral over its domain, importance-sampled. With a single pair
-         (lo, hi), or a domain or warp of scalars, x has the shape (n,).
+         warp, which then draws the points: the integral over its domain, importance-sampled; f must be 0 where
+         the density of the warp is 0. With a single pair (lo, hi), or a domain or warp of scalars, x has the shape
+         (n,).
 Options, with the defaults of C++:
   rel_error = 1e-3, abs_error = 0 : stop when std_error <= rel_error |value|, or <= abs_error
   max_calls = 1000000, min_calls = 10000 : limits of the number of points
@@ -237,7 +239,8 @@ void bind_integral(py::module_& m) {
                     "Whether the rounds agree; if not, distrust the error bar.")
       .def_readonly("rounds", &mc::Integral::rounds, "List of Rounds.")
       .def_property_readonly(
-          "density", [](const mc::Integral& r) { return std::const_pointer_cast<mc::AdaptedDensity>(r.density); },
+          "density",
+          [](const mc::Integral& r) { return std::optional(std::const_pointer_cast<mc::AdaptedDensity>(r.density)); },
           "Density that was learned, or None.")
       .def("__float__", [](const mc::Integral& r) { return r.estimate.value; })
       .def("__repr__", &name_of);

@@ -61,13 +61,16 @@ void bind_points(py::module_& parent) {
         const mc::SmallestDistance d = with_points(points, "smallest_distance", &mc::smallest_distance);
         return periodic ? d.periodic : d.plain;
       },
-      arg("points"), arg("periodic") = false, contract("smallest_distance").c_str());
+      arg("points"), arg("periodic") = false,
+      (contract("smallest_distance") + "\n\nReturns the distance in the cube, or with `periodic` that with wrapping; "
+                                       "infinity for a single point.")
+          .c_str());
   m.def(
       "net_quality",
       [](const ArrayLike& points) {
         return with_points(points, "net_quality", [](mc::PointList p) { return mc::net_quality(p); });
       },
-      arg("points"), contract("net_quality").c_str());
+      arg("points"), (contract("net_quality") + "\n\nReturns None for nullopt. `work` is 1e9.").c_str());
   m.def(
       "radial_power_spectrum",
       [](const ArrayLike& points, int rings) {

@@ -27,11 +27,19 @@ using py::arg;
 using Image = render::Image;
 using Float = render::Float;
 
-// A picture; `result` only of a render, without its image.
+// A picture. Without a render only the image of the result is known.
 struct Picture {
-  Image image;
-  std::optional<render::RenderResult> result = {};
+  render::RenderResult result;
+  bool is_rendered = false;
+
+  Image& image() { return result.image; }
+  const Image& image() const { return result.image; }
 };
+Picture picture_of(Image image) {
+  Picture p;
+  p.image() = std::move(image);
+  return p;
+}
 
 py::array_t<Float> pixel_array(const Image& image, const std::vector<render::Spectrum>& pixels) {
   py::array_t<Float> array({image.height, image.width, 3});
@@ -53,21 +61,25 @@ std::vector<render::Spectrum> to_pixels(const py::handle& object, const char* wh
 }
 
 Picture make_picture(const ArrayLike& radiance, const py::object& variance, std::uint32_t estimates) {
-  Picture p;
-  p.image.pixels = to_pixels(radiance, "Picture: radiance");
+  Image image;
+  image.pixels = to_pixels(radiance, "Picture: radiance");
   const py::array shape = py::array::ensure(radiance);
-  p.image.height = static_cast<int>(shape.shape(0));
-  p.image.width = static_cast<int>(shape.shape(1));
-  if (variance.is_none()) return p;
-  p.image.variance = to_pixels(variance, "Picture: variance");
-  p.image.estimates = estimates;
-  mc::require(p.image.variance.size() == p.image.pixels.size(), "Picture: radiance and variance differ in size");
-  return p;
+  image.height = static_cast<int>(shape.shape(0));
+  image.width = static_cast<int>(shape.shape(1));
+  if (!variance.is_none()) {
+    image.variance = to_pixels(variance, "Picture: variance");
+    image.estimates = estimates;
+    const py::array other = py::array::ensure(variance);
+    mc::require(std::equal(shape.shape(), shape.shape() + shape.ndim(), other.shape(), other.shape() + other.ndim()),
+                "Picture: radiance of shape {} and variance of shape {}; they must be the same", shape_text(shape),
+                shape_text(other));
+  }
+  return picture_of(std::move(image));
 }
 
 // The image at a path, or of a picture.
 Image to_image(const py::handle& object) {
-  if (py::isinstance<Picture>(object)) return object.cast<const Picture&>().image;
+  if (py::isinstance<Picture>(object)) return object.cast<const Picture&>().image();
   return render::read_image(py::reinterpret_borrow<PathLike>(object).text());
 }
 std::string name_of(const py::handle& object, const char* name) {
@@ -139,6 +151,8 @@ render::RenderOptions options_of(const RenderSettings& s, const render::RenderDe
   if (named && !named->sampler.empty()) o.sampler = render::sampler_from(named->sampler);
   if (s.strategy) o.strategy = render::strategy_from(*s.strategy);
   if (s.sampler) o.sampler = render::sampler_from(*s.sampler);
+  const bool is_limited = o.seconds || o.target_error;
+  mc::require(!s.spp || !is_limited, "render: spp and {} exclude each other", o.seconds ? "seconds" : "target_error");
   std::tie(o.width, o.height) = s.size.value_or(std::pair(defaults.width, defaults.height));
   o.spp = s.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   o.max_depth = s.max_depth.value_or(defaults.max_depth);
@@ -177,10 +191,7 @@ Picture render_scene(const std::string& scene, const RenderSettings& s, const py
         read.scene,
         {options.width, options.height, options.crop.value_or(render::Crop{0, 0, options.width, options.height})},
         read.origin, options.threads);
-  Picture picture{std::move(result.image)};
-  result.image = {};
-  picture.result = std::move(result);
-  return picture;
+  return {std::move(result), true};
 }
 
 constexpr const char* render_doc = R"(Renders a scene. Returns a Picture.
@@ -188,7 +199,8 @@ constexpr const char* render_doc = R"(Renders a scene. Returns a Picture.
 scene : a Mitsuba XML file, a mesh, or a name of the gallery such as "cbox"
 Options, None for those of the scene:
   size = None (width, height), crop = None (x, y, width, height)
-  spp = None, seconds = None, target_error = None : samples per pixel, or a limit of time [s] or of the error
+  spp = None : samples per pixel; or else
+  seconds = None, target_error = None : limits of the time [s] and of the relative error
   adaptive = True  : more samples where the error is larger, after the first 16 of every pixel
   strategy = None, sampler = None : as for carlo render
   splat = True     : samples count for all pixels under the filter
@@ -201,7 +213,7 @@ Options, None for those of the scene:
 Ctrl-C ends the render and returns what is known, with partial = True.)";
 
 template <class T> auto of_result(T render::RenderResult::*member) {
-  return [member](const Picture& p) { return p.result ? py::cast((*p.result).*member) : py::object(py::none()); };
+  return [member](const Picture& p) { return p.is_rendered ? py::cast(p.result.*member) : py::object(py::none()); };
 }
 
 void bind_picture(py::module_& m) {
@@ -210,20 +222,20 @@ void bind_picture(py::module_& m) {
       .def(py::init(&make_picture), arg("radiance"), arg("variance") = py::none(), arg("estimates") = 2,
            "From arrays (height, width, 3). `estimates` is the number of independent estimates behind the variance.")
       .def_property_readonly(
-          "radiance", [](const Picture& p) { return pixel_array(p.image, p.image.pixels); },
+          "radiance", [](const Picture& p) { return pixel_array(p.image(), p.image().pixels); },
           "Radiance [W/(m^2 sr)], (height, width, 3); row 0 is the top.")
       .def_property_readonly(
           "variance",
           [](const Picture& p) {
-            return p.image.variance.empty() ? py::object(py::none())
-                                            : py::object(pixel_array(p.image, p.image.variance));
+            return p.image().variance.empty() ? py::object(py::none())
+                                              : py::object(pixel_array(p.image(), p.image().variance));
           },
           "Variance of each pixel's mean, (height, width, 3); None if it is unknown.")
       .def(
           "interval_half_width",
           [](const Picture& p, double confidence) {
-            mc::require(!p.image.variance.empty(), "interval_half_width: the picture has no variance");
-            const Image half = render::interval_half_widths(p.image, confidence);
+            mc::require(!p.image().variance.empty(), "interval_half_width: the picture has no variance");
+            const Image half = render::interval_half_widths(p.image(), confidence);
             return pixel_array(half, half.pixels);
           },
           arg("confidence") = 0.95, "Half the widths of the pixels' confidence intervals, (height, width, 3).")
@@ -231,8 +243,8 @@ void bind_picture(py::module_& m) {
           "layers",
           [](const Picture& p) {
             py::dict layers;
-            for (const auto& [name, values] : p.image.layers) {
-              py::array_t<float> array({p.image.height, p.image.width});
+            for (const auto& [name, values] : p.image().layers) {
+              py::array_t<float> array({p.image().height, p.image().width});
               std::copy(values.begin(), values.end(), array.mutable_data());
               layers[name.c_str()] = array;
             }
@@ -240,9 +252,9 @@ void bind_picture(py::module_& m) {
           },
           "Further channels by name, (height, width): normal N.X, position P.X, depth Z, albedo.R, id.")
       .def_property_readonly(
-          "metadata", [](const Picture& p) { return p.image.metadata; }, "Scene, seed, samples.")
+          "metadata", [](const Picture& p) { return p.image().metadata; }, "Scene, seed, samples.")
       .def_property_readonly(
-          "estimates", [](const Picture& p) { return p.image.estimates; },
+          "estimates", [](const Picture& p) { return p.image().estimates; },
           "Independent estimates per pixel behind the variance.")
       .def_property_readonly("spp", of_result(&Result::spp), "Mean samples per pixel of a render.")
       .def_property_readonly("samples", of_result(&Result::samples), "Samples of a render.")
@@ -259,17 +271,17 @@ void bind_picture(py::module_& m) {
       .def(
           "save",
           [](const Picture& p, const PathLike& path, double exposure, const std::string& tone) {
-            render::write_image(path.text(), p.image, {render::tone_curve_from(tone), exposure});
+            render::write_image(path.text(), p.image(), {render::tone_curve_from(tone), exposure});
           },
           arg("path"), arg("exposure") = 0.0, arg("tone") = "clamp",
           "Writes .exr (with variance and layers), .pfm, or .png by `exposure` [stops] and `tone`: clamp, reinhard or "
           "filmic.")
       .def("__repr__", [](const Picture& p) {
-        std::string text = fmt::format("<Picture: {}x{}", p.image.width, p.image.height);
-        if (p.result)
-          text += fmt::format(", {:.4g} samples per pixel, relative error {}", p.result->spp,
-                              carlo::format_error(*p.result));
-        return text + (p.result && p.result->partial ? ", partial>" : ">");
+        std::string text = fmt::format("<Picture: {}x{}", p.image().width, p.image().height);
+        if (p.is_rendered)
+          text +=
+              fmt::format(", {:.4g} samples per pixel, relative error {}", p.result.spp, carlo::format_error(p.result));
+        return text + (p.is_rendered && p.result.partial ? ", partial>" : ">");
       });
 }
 
@@ -348,7 +360,7 @@ void bind_render(py::module_& m) {
       arg("layers") = false, arg("dialect") = "mitsuba", arg("variables") = py::dict(), arg("progress") = py::none(),
       render_doc);
   m.def(
-      "read_image", [](const PathLike& path) { return Picture{render::read_image(path.text())}; }, arg("path"),
+      "read_image", [](const PathLike& path) { return picture_of(render::read_image(path.text())); }, arg("path"),
       "Reads .exr (with its variance), .hdr, .pfm, .png or .jpg as a Picture.");
   m.def("compare", &compare, arg("a"), arg("b"), arg("alpha") = 0.01, arg("tolerance") = 0.0,
         R"(Compares two pictures, or their files: error metrics, and t-tests where the variances are known.

@@ -7,6 +7,7 @@
 #include <mc/table/table_dist_tree.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace bindings {
 
@@ -28,13 +29,13 @@ template <mc::DiscreteDistribution D> py::tuple sample_index(const D& d, const A
   return py::make_tuple(index, pmf, remapped);
 }
 
-template <mc::DiscreteDistribution D>
-Array pmf(const D& d, const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& index) {
-  Array p(std::vector<py::ssize_t>(index.shape(), index.shape() + index.ndim()));
-  for (py::ssize_t i = 0; i < index.size(); ++i) {
-    const std::int64_t at = index.data()[i];
-    mc::require(at >= 0 && static_cast<std::size_t>(at) < d.size(), "pmf: outcome {}; there are outcomes 0 to {}", at,
-                d.size() - 1);
+template <mc::DiscreteDistribution D> Array pmf(const D& d, const ArrayLike& index) {
+  const Rows rows = to_rows(index, 1, "pmf: index");
+  Array p = new_rows(rows.outer, 1);
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    const double at = rows.values()[i];
+    mc::require(at >= 0 && at < static_cast<double>(d.size()) && at == std::floor(at),
+                "pmf: outcome {}; there are outcomes 0 to {}", at, d.size() - 1);
     p.mutable_data()[i] = d.pmf(static_cast<std::size_t>(at));
   }
   return p;
@@ -99,8 +100,13 @@ BoundWarp<TableTree> tree_from_nodes(int dim, const std::vector<std::pair<int, d
 }
 
 BoundWarp<TableTree> tree_from_function(const py::function& f, int dim, std::size_t leaves) {
-  return tree_warp(mc::BoxTree::from_function(
-      dim, [&](std::span<const double> x) { return f(new_array(x)).cast<double>(); }, leaves));
+  const auto value = [&](std::span<const double> x) {
+    const Array values = to_array(f(new_array(x)), "TableDistTree: f returned");
+    mc::require(values.size() == 1, "TableDistTree: f returned an array of shape {}; one number is needed",
+                shape_text(values));
+    return *values.data();
+  };
+  return tree_warp(mc::BoxTree::from_function(dim, value, leaves));
 }
 
 } // namespace
@@ -129,10 +135,7 @@ void bind_tables(py::module_& m) {
           "sample_index", [](const BoundWarp<Table1D>& t, const ArrayLike& u) { return sample_index(t.get(), u); },
           arg("u"), sample_index_doc)
       .def(
-          "pmf",
-          [](const BoundWarp<Table1D>& t,
-             const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>& i) { return pmf(t.get(), i); },
-          arg("index"), pmf_doc)
+          "pmf", [](const BoundWarp<Table1D>& t, const ArrayLike& i) { return pmf(t.get(), i); }, arg("index"), pmf_doc)
       .def("__len__", [](const BoundWarp<Table1D>& t) { return t.get().size(); });
 
   warp_class<Table2D>(m, "TableDist2D")
@@ -152,7 +155,7 @@ void bind_tables(py::module_& m) {
       .def(py::init(&tree_from_nodes), arg("dim"), arg("nodes"),
            "Nodes in preorder: (axis, place) cuts, (-1, weight) is a leaf. dim is 2 or 3.")
       .def_static("from_function", &tree_from_function, arg("f"), arg("dim"), arg("leaves"),
-                  "Partition into `leaves` boxes adapted to f, which takes an array of shape (dim,).");
+                  "Partition into at most `leaves` boxes adapted to f, which takes an array of shape (dim,).");
 }
 
 } // namespace bindings

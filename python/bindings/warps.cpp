@@ -5,6 +5,9 @@
 #include <mc/warp/mixture_n.h>
 #include <mc/warp/product.h>
 
+#include <cmath>
+#include <map>
+
 namespace bindings {
 
 namespace detail {
@@ -52,10 +55,24 @@ Array invert(const AnyWarp& w, const ArrayLike& x, const py::object& out) {
   return u;
 }
 
-bool have_equal_domains(const std::vector<AnyWarp>& warps) {
-  for (const AnyWarp& w : warps)
-    if (w.domain.text != warps.front().domain.text) return false;
+// Whether the charts of two domains give the same points, at three places of each axis.
+bool are_equal(const mc::AnyDomain& a, const mc::AnyDomain& b) {
+  if (a.dim != b.dim || a.point_size != b.point_size) return false;
+  constexpr std::array places{0.0625, 0.5, 0.9375};
+  const auto points = static_cast<std::size_t>(std::pow(places.size(), a.dim));
+  for (std::size_t i = 0; i < points; ++i) {
+    mc::AnyDomain::Coordinates v{};
+    std::size_t rest = i;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(a.dim); ++axis, rest /= places.size())
+      v[axis] = places[rest % places.size()];
+    if (a.from_unit(v).x != b.from_unit(v).x) return false;
+  }
   return true;
+}
+
+bool have_equal_domains(const std::vector<AnyWarp>& warps) {
+  return std::all_of(warps.begin(), warps.end(),
+                     [&](const AnyWarp& w) { return are_equal(w.domain.any, warps.front().domain.any); });
 }
 
 template <int Dim, int Size>
@@ -80,6 +97,12 @@ BoundWarp<Mixture> make_mixture(const std::vector<double>& weights, const std::v
               warps.front().domain.text);
   const BoundDomain domain = on.is_none() ? warps.front().domain : to_domain(on);
   const int dim = domain.any.dim, size = domain.any.point_size;
+  using Make = AnyWarp(const std::string&, const BoundDomain&, const std::vector<double>&, const std::vector<AnyWarp>&);
+  static const std::map<std::pair<int, int>, Make*> made = {{{1, 1}, mixture_of<1, 1>},
+                                                            {{2, 2}, mixture_of<2, 2>},
+                                                            {{2, 3}, mixture_of<2, 3>},
+                                                            {{3, 3}, mixture_of<3, 3>},
+                                                            {{3, 4}, mixture_of<3, 4>}};
   std::string names;
   for (const AnyWarp& w : warps) {
     mc::require(w.domain.any.dim == dim && w.domain.any.point_size == size,
@@ -88,10 +111,9 @@ BoundWarp<Mixture> make_mixture(const std::vector<double>& weights, const std::v
     names += (names.empty() ? "" : ", ") + w.name;
   }
   const std::string name = fmt::format("Mixture([{:g}], [{}])", fmt::join(weights, ", "), names);
-  if (dim == 1) return BoundWarp<Mixture>(mixture_of<1, 1>(name, domain, weights, warps));
-  if (dim == 3) return BoundWarp<Mixture>(mixture_of<3, 3>(name, domain, weights, warps));
-  return BoundWarp<Mixture>(size == 2 ? mixture_of<2, 2>(name, domain, weights, warps)
-                                      : mixture_of<2, 3>(name, domain, weights, warps));
+  const auto make = made.find({dim, size});
+  mc::require(make != made.end(), "Mixture: points of {} coordinates on {} axes; 1 to 3 axes are supported", size, dim);
+  return BoundWarp<Mixture>(make->second(name, domain, weights, warps));
 }
 
 // A function of both factors of a product, column by column: products of densities, or a column of results each.
@@ -133,6 +155,13 @@ BoundWarp<Product> make_product(const AnyWarp& a, const AnyWarp& b) {
   any.breaks = {a.breaks[0], b.breaks[0]};
   return BoundWarp<Product>(std::move(any));
 }
+
+constexpr const char* mixture_doc = R"(
+
+In Python the warps may have different types. Without `domain` their domains must be equal.)";
+constexpr const char* product_doc = R"(
+
+In Python both factors have one dimension.)";
 
 } // namespace
 
@@ -196,9 +225,9 @@ its content is undefined.)")
   bind_directions(m);
   bind_lobes(m);
   bind_tables(m);
-  py::class_<BoundWarp<Mixture>, AnyWarp>(m, "Mixture", contract("MixtureN").c_str())
+  py::class_<BoundWarp<Mixture>, AnyWarp>(m, "Mixture", (contract("MixtureN") + mixture_doc).c_str())
       .def(py::init(&make_mixture), py::arg("weights"), py::arg("warps"), py::arg("domain") = py::none());
-  py::class_<BoundWarp<Product>, AnyWarp>(m, "Product", contract("Product").c_str())
+  py::class_<BoundWarp<Product>, AnyWarp>(m, "Product", (contract("Product") + product_doc).c_str())
       .def(py::init(&make_product), py::arg("first"), py::arg("second"));
 }
 

@@ -31,6 +31,7 @@ def plain(text, module):
     text = re.sub(r"List\[(\w+)\[\d+\]\]", r"Sequence[\1]", text)
     text = re.sub(r"(?<=: )List\[", "Sequence[", text)
     text = re.sub(r"\b(handle)\b", "Any", text)
+    text = re.sub(r"-> object$", "-> Any", text)
     text = re.sub(r": function\b", ": Callable[..., Any]", text)
     text = re.sub(r": ([\w.]+)( = None)", r": Optional[\1]\2", text).replace("Optional[object]", "Any")
     return re.sub(r"= <[^>]*>", "= ...", text)

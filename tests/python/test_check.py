@@ -102,6 +102,28 @@ def test_failed_draws():
     assert report, report.text()
 
 
+def test_failed_rows():
+    random = np.random.default_rng(3)
+    x = np.where(random.random(20_000) < 0.3, np.nan, random.random(20_000))
+    assert libmc.check(x, lambda x: np.full(len(x), 0.7), "x=0:1", may_fail=True)
+    assert not libmc.check(x, lambda x: np.full(len(x), 0.8), "x=0:1", may_fail=True)
+
+
+# The steps of the law on the derivative are a few spacings of doubles here.
+@pytest.mark.parametrize(
+    "warp",
+    [
+        libmc.warps.UniformInterval(9, 9 + 1e-7),
+        libmc.warps.Normal(-84839.6, 8.6e-8),
+        libmc.warps.HenyeyGreenstein(-0.9999999),
+    ],
+    ids=repr,
+)
+def test_narrow_warps(warp):
+    report = libmc.check(warp, invert_eps=1e300, samples=4000)
+    assert not [c.name for c in report.checks if "det" in c.name and c.verdict == "fail"], report.text()
+
+
 def test_more_uniforms_than_dimensions():
     def sum_of_two(u):
         return u[:, 0] + u[:, 1]
@@ -123,6 +145,11 @@ def test_the_same_seed_gives_the_same_report():
         (lambda: libmc.check(lambda u: u, cosine_pdf, "hemisphere"), r"check: sample returned"),
         (lambda: libmc.check(np.zeros((10, 3)), cosine_pdf, "hemisphere"), r"10 samples; 2000 or more"),
         (lambda: libmc.check(cosine, cosine_pdf, "hemisphere", uniforms=9), r"uniforms 9; at most 6"),
+        (lambda: libmc.check(cosine, cosine_pdf, "hemisphere", uniforms=-1), r"uniforms -1; a positive number"),
+        (lambda: libmc.check(cosine, lambda w: 1, "hemisphere", samples=0), r"0 samples; 1000 or more are needed"),
+        (lambda: libmc.check(libmc.warps.CosineHemisphere(), domain="x=0:1"), r"a warp has a pdf, domain and inverse"),
+        (lambda: libmc.check(np.zeros(2000), np.ones_like, "x=0:1", np.zeros_like), r"the samples are an array"),
+        (lambda: libmc.check(lambda u: u, cosine_pdf, "hemisphere", uniforms=2), r"3 numbers for each of the"),
     ],
 )
 def test_errors_name_the_value(call, message):

@@ -41,15 +41,28 @@ def test_control_variates():
     assert both.estimate([0])[0] == both.without_controls()[0]
 
 
+def of_mean(mean):
+    c = libmc.ControlVariates([mean])
+    c.add([1, 2, 3], [0.1, 0.6, 0.8])
+    return c
+
+
 @pytest.mark.parametrize(
     "call, message",
     [
         (lambda: mis.weights([1, -1]), r"a density of -1; it must be >= 0"),
+        (lambda: mis.weights([[1, 2.0]], [np.inf, 1]), r"a count of inf; it must be finite"),
+        (lambda: mis.balance_heuristic(np.nan, 1), r"balance_heuristic: f is nan; it must be >= 0"),
+        (lambda: mis.power_heuristic(None, 1), r"power_heuristic: f: an array of object"),
+        (lambda: mis.power_heuristic(1, 1, n_g=-1), r"n_g is -1; it must be finite and >= 0"),
+        (lambda: mis.balance_heuristic(np.ones(3), np.ones(4)), r"shapes \(3,\), \(4,\), \(\) and \(\) cannot"),
         (lambda: mis.weights([1, 1], [1]), r"1 counts for 2 techniques"),
         (lambda: mis.weights([1, 1], heuristic="pwer"), r"must be balance, power, cutoff or maximum"),
         (lambda: mis.weights([1, 1], heuristic="power", beta=0), r"power 0 must be > 0"),
         (lambda: libmc.ControlVariates([]), r"control"),
         (lambda: libmc.ControlVariates([0.5]).add([1, 2], [1]), r"as many are needed"),
+        (lambda: libmc.ControlVariates([0.5]).add(np.ones((4, 1)), np.ones(4)), r"f of shape \(4, 1\)"),
+        (lambda: libmc.cross_fitted_estimate(of_mean(0.5), of_mean(0.6)), r"means of the controls differ"),
         (lambda: libmc.ControlVariates([0.5]).coefficients(), r"0 values; at least 2 are needed"),
     ],
 )

@@ -1,6 +1,7 @@
 """Renders and comparisons of pictures."""
 
 import _thread
+import re
 import threading
 import time
 
@@ -25,6 +26,7 @@ def test_the_bits_are_those_of_carlo(carlo, tmp_path):
     assert ours.samples == 16 * (32 + 2 * reach) * (24 + 2 * reach)
     assert ours.spp == 16 and not ours.partial and theirs.spp is None
     assert 0 < ours.relative_error <= ours.worst_error
+    assert re.search(r"relative error [\d.]+ % \(worst block [\d.]+ %\)", repr(ours))
 
 
 def test_seeds_agree_and_scenes_differ():
@@ -94,6 +96,9 @@ def test_an_exception_of_progress_ends_the_render():
         (lambda: libmc.render("missing.xml"), r"missing\.xml"),
         (lambda: libmc.render("cbox", strategy="mist"), r"mis"),
         (lambda: libmc.render("cbox", spp=0), r"0"),
+        (lambda: libmc.render("cbox", spp=4, seconds=1), r"spp and seconds exclude each other"),
+        (lambda: libmc.render("cbox", size=(10**9, 10**9)), r"1000000000x1000000000 pixels need"),
+        (lambda: libmc.Picture(np.ones((4, 5, 3)), np.ones((5, 4, 3))), r"\(4, 5, 3\) and variance of shape"),
         (lambda: libmc.render("cbox", size=(0, 4)), r"0"),
         (lambda: libmc.render("cbox", variables={"nothing": "1"}), r"nothing"),
         (lambda: libmc.Picture(np.ones((4, 5))), r"the shape must be \(height, width, 3\)"),

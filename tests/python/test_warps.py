@@ -163,6 +163,37 @@ def test_discrete_outcomes(table):
         table.pmf([9])
 
 
+def test_mixtures_of_every_size_of_points():
+    rotations = warps.Mixture([1, 2], [warps.UniformRotation(), warps.UniformRotation()])
+    np.testing.assert_allclose(np.sum(rotations.sample(samplers.random(100, 3)) ** 2, axis=1), 1)
+    assert libmc.check(rotations, samples=100_000)
+
+
+def test_mixtures_on_equal_domains():
+    libmc.assert_distribution(warps.Mixture([1, 3], [warps.UniformCone(0.3), warps.UniformCone(0.3)]), samples=100_000)
+
+
+def test_a_product_has_factors_of_one_dimension():
+    assert "both factors have one dimension" in warps.Product.__doc__
+
+
+def test_the_frame_of_a_sphere_light():
+    center = np.array([3.0, 0.0, 4.0])
+    light = warps.SphereLight(tuple(center), 1.0)
+    np.testing.assert_allclose(light.frame @ light.frame.T, np.eye(3), atol=1e-15)
+    directions = light.sample(samplers.random(1000, 2)) @ light.frame
+    assert np.all(directions @ center / 5 >= np.sqrt(1 - 1 / 25) - 1e-12)
+
+
+def step(x):
+    return 1.0 if 0.25 < x[0] < 0.5 and 0.3 < x[1] < 0.7 else 0.0
+
+
+@pytest.mark.parametrize("f", [lambda x: 1.0, step, lambda x: x[0] ** 2])
+def test_trees_of_any_function(f):
+    libmc.assert_distribution(warps.TableDistTree.from_function(f, 2, 500), samples=100_000)
+
+
 def test_contracts_of_the_headers_are_docstrings():
     assert "invert : |invert(sample(u)) - u| <= 8 eps" in warps.UniformDisk.__doc__
     assert repr(warps.Tent(1, 2)) == "Tent(center=1, radius=2)"
@@ -184,6 +215,20 @@ def test_contracts_of_the_headers_are_docstrings():
         (lambda: warps.Mixture([1, 1], [warps.Tent(), warps.UniformDisk()], domain="disk"), r"they must agree"),
         (lambda: warps.Mixture([1, 1], [warps.Tent(), warps.Normal()]), r"name a domain that contains them"),
         (lambda: warps.Mixture([1], [warps.Tent(), warps.Tent()]), r"as many are needed"),
+        (lambda: warps.Mixture([1, 1], [warps.UniformCone(0.3), warps.UniformCone(0.30000001)]), r"different domains"),
+        (
+            lambda: warps.Mixture(
+                [1, 1],
+                [
+                    warps.UniformParallelogram((0, 0, 0), (1, 0, 0), (0, 1, 0)),
+                    warps.UniformParallelogram((5, 0, 0), (1, 0, 0), (0, 0, 1)),
+                ],
+            ),
+            r"different domains",
+        ),
+        (lambda: warps.TableDistTree.from_function(lambda x: None, 2, 8), r"TableDistTree: f returned"),
+        (lambda: warps.TableDistTree.from_function(lambda x: x, 2, 8), r"shape \(2,\); one number is needed"),
+        (lambda: warps.AliasTable(JAGGED).pmf([0.9]), r"pmf: outcome 0.9; there are outcomes"),
         (lambda: warps.Product(warps.Tent(), warps.UniformDisk()), r"both must have one"),
         (lambda: libmc.Domain("spheer"), r"did you mean 'sphere'"),
         (lambda: libmc.Domain("discrete=3"), r"a set of points is needed"),
@@ -206,4 +251,5 @@ def test_domain_charts():
     assert (domain.dim, domain.point_size, x.shape) == (3, 4, (100, 4))
     np.testing.assert_allclose(domain.to_unit(x), v, atol=1e-12)
     np.testing.assert_allclose(domain.jacobian(v), 2 * 2 * np.pi)
+    assert libmc.Domain("x=0:1").from_unit(libmc.Domain("x=0:1").to_unit(1.0)) <= 1
     assert not domain.contains([3, 0, 0, 1])

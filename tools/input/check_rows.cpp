@@ -9,10 +9,10 @@
 namespace carlo {
 
 mc::Report check_rows(const mc::Subject& subject, const OrderedSamples& samples, bool dependent,
-                      const mc::SubjectOptions& options) {
+                      const mc::SubjectOptions& options, const DependenceWords& words) {
   if (dependent) {
     mc::Report report = check_subject(subject, options);
-    report.untried.push_back({"independence of the samples", "--dependent"});
+    report.untried.push_back({"independence of the samples", words.option});
     return report;
   }
   constexpr double of_order = 0.03, of_evenness = 0.02, rest = 1 - of_order - of_evenness;
@@ -23,8 +23,7 @@ mc::Report check_rows(const mc::Subject& subject, const OrderedSamples& samples,
   for (mc::Check& c : report.checks) c.share *= rest;
   const auto append = [&](std::vector<mc::Check> checks) {
     for (mc::Check& c : checks) {
-      if (c.verdict == mc::Verdict::fail)
-        c.detail += "; --thin auto keeps independent rows of a Markov chain, --dependent accepts a point set";
+      if (c.verdict == mc::Verdict::fail) c.detail += "; " + words.remedy;
       report.checks.push_back(std::move(c));
     }
   };

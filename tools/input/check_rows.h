@@ -4,6 +4,7 @@
 #include <mc/check/check_subject.h>
 
 #include <span>
+#include <string>
 #include <vector>
 
 namespace carlo {
@@ -16,10 +17,17 @@ struct OrderedSamples {
   std::span<const double> probabilities = {};   ///< of the outcomes; empty for points
 };
 
+/// How a user accepts rows that depend on each other.
+struct DependenceWords {
+  std::string option = "--dependent", ///< says that they may
+      remedy =
+          "--thin auto keeps independent rows of a Markov chain, --dependent accepts a point set"; ///< after a fault
+};
+
 /// Returns check_subject with tests that the samples are independent: their order, and for outcomes the evenness of the
 /// counts. The tests of the order and of evenness take a twentieth of alpha. With `dependent` the report lists them as
 /// not tried.
 mc::Report check_rows(const mc::Subject& subject, const OrderedSamples& samples, bool dependent,
-                      const mc::SubjectOptions& options);
+                      const mc::SubjectOptions& options, const DependenceWords& words = {});
 
 } // namespace carlo

@@ -14,9 +14,9 @@ BoxMap::BoxMap(std::vector<VariableBounds> bounds) : bounds_(std::move(bounds)) 
   for (const VariableBounds& s : bounds_)
     if (s.is_finite()) product *= s.hi - s.lo;
   volume_ = static_cast<double>(product);
-  mc::require(std::isfinite(volume_), "--domain: the volume of the {} variables overflows", dim());
+  mc::require(std::isfinite(volume_), "domain: the volume of the {} variables overflows", dim());
   mc::require(volume_ >= std::numeric_limits<double>::min(),
-              "--domain: the volume of the {} variables is too small for a double", dim());
+              "domain: the volume of the {} variables is too small for a double", dim());
 }
 
 double BoxMap::slope(std::span<const double> u) const {

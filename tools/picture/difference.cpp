@@ -165,7 +165,7 @@ void require_variance(const std::string& name, const Image& image) {
       const double variance = double(image.variance[i][c]);
       mc::require(
           std::isfinite(variance) && variance >= 0,
-          "'{}': the variance of pixel ({}, {}) in {} is {:.3g}; it must be finite and >= 0 (--metric needs none)",
+          "'{}': the variance of pixel ({}, {}) in {} is {:.3g}; it must be finite and >= 0 (error metrics need none)",
           name, i % static_cast<std::size_t>(image.width), i / static_cast<std::size_t>(image.width),
           channel_names[static_cast<std::size_t>(c)], variance);
       largest = std::max(largest, std::abs(double(image.pixels[i][c])));

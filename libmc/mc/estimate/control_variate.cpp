@@ -144,6 +144,8 @@ Estimate ControlVariates::estimate(std::span<const double> beta) const {
 }
 
 Estimate cross_fitted_estimate(const ControlVariates& a, const ControlVariates& b) {
+  require(std::ranges::equal(a.means(), b.means()),
+          "cross_fitted_estimate: the means of the controls differ between the halves; they must be the same");
   const Estimate first = a.estimate(b.coefficients()), second = b.estimate(a.coefficients());
   const double n = static_cast<double>(first.count + second.count), share = static_cast<double>(first.count) / n;
   return Estimate::from_student_t(

@@ -33,6 +33,8 @@ class ControlVariates {
   std::uint64_t count() const { return count_; }
   /// Number of samples with a non-finite value.
   std::uint64_t non_finite_count() const { return non_finite_; }
+  /// The known means of the controls.
+  std::span<const double> means() const { return means_; }
   /// Coefficients of least variance.
   std::vector<double> coefficients() const;
   /// Estimate with coefficients `beta`.

@@ -56,7 +56,10 @@ template <class Factor> double mean_over_points(PointList p, Factor factor) {
   return sum.value() / static_cast<double>(p.size());
 }
 
-double root(double square) { return std::sqrt(std::max(square, 0.0)); }
+// Sums of squares that overflow are NaN here.
+double root(double square) {
+  return std::isnan(square) ? std::numeric_limits<double>::infinity() : std::sqrt(std::max(square, 0.0));
+}
 
 // Distance on a circle of length 1.
 double around(double x, double y) {

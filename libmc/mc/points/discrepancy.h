@@ -21,6 +21,7 @@ double periodic_l2_discrepancy(PointList points);
 
 /// The wrap-around and the centered L2 discrepancy. Both add the same mean squares over all faces of the cube, and so
 /// also measure the uniformity of projections. Returns the square root; SciPy prints the square under the same name.
+/// Infinity where a square is beyond doubles, in more than 1100 dimensions.
 ///   Source : [Hickernell98].
 double wraparound_discrepancy(PointList points);
 /// Centered L2 discrepancy, as defined at wraparound_discrepancy().

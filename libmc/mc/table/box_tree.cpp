@@ -110,6 +110,8 @@ struct MeasuredBox {
     return v;
   }
   double middle() const { return (lo[axis] + hi[axis]) / 2; }
+  // Whether the halves contain thousands of doubles, so that points within them stay uniform.
+  bool is_divisible() const { return hi[axis] - lo[axis] > 0x1p-40 * hi[axis]; }
 };
 
 // Steps of a rank-1 sequence: powers of the root of x^(d + 1) = x + 1. Its points cover the cube in any dimension, so
@@ -163,8 +165,12 @@ BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<con
   require(leaves >= 1, "BoxTree: 0 leaves; at least 1 is needed");
   const auto d = static_cast<std::size_t>(dim);
   std::vector<MeasuredBox> boxes = {measured(f, std::vector<double>(d, 0.0), std::vector<double>(d, 1.0))};
-  const auto less = [&](std::size_t a, std::size_t b) { return boxes[a].gain < boxes[b].gain; };
-  for (std::vector<std::size_t> open = {0}; open.size() < leaves;) { // a heap ordered by gain
+  // Among boxes in which f does not vary, the largest first: f may vary between the points.
+  const auto less = [&](std::size_t a, std::size_t b) {
+    return std::pair(boxes[a].gain, boxes[a].volume()) < std::pair(boxes[b].gain, boxes[b].volume());
+  };
+  std::vector<std::size_t> open = {0}; // a heap of boxes that may be halved
+  for (std::size_t made = 1; made < leaves && !open.empty(); ++made) {
     std::pop_heap(open.begin(), open.end(), less);
     const std::size_t at = open.back();
     open.pop_back();
@@ -173,8 +179,9 @@ BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<con
     boxes[at].below = boxes.size();
     MeasuredBox below = measured(f, boxes[at].lo, std::move(hi)), above = measured(f, std::move(lo), boxes[at].hi);
     for (MeasuredBox* half : {&below, &above}) {
-      open.push_back(boxes.size());
       boxes.push_back(std::move(*half));
+      if (!boxes.back().is_divisible()) continue;
+      open.push_back(boxes.size() - 1);
       std::push_heap(open.begin(), open.end(), less);
     }
   }

@@ -40,8 +40,9 @@ class BoxTree {
   /// The whole cube as one box.
   explicit BoxTree(int dim) : BoxTree(dim, std::vector<BoxTreeNode>(1)) {}
 
-  /// Partition into `leaves` boxes adapted to f. Repeatedly halves the box with the largest standard deviation of f
-  /// over 32 points times its volume. The weight of a box is the mean of f over these points times the volume.
+  /// Partition into at most `leaves` boxes adapted to f. Repeatedly halves the box with the largest standard deviation
+  /// of f over 32 points times its volume, unless rounding would show in its halves. The weight of a box is the mean of
+  /// f over these points times the volume.
   ///   throws : Error if f is not finite and >= 0, or is 0 at all points evaluated.
   static BoxTree from_function(int dim, const std::function<double(std::span<const double>)>& f, std::size_t leaves);
 

@@ -46,7 +46,9 @@ template <Real S> class BeckmannNormals {
   S pdf(const Vec3<S>& m) const {
     using std::exp;
     if (!(m.z() > 0)) return S(0);
-    return S(exp(S(-r2(m)))) / (pi<S> * (alpha_x_ * m.z()) * (alpha_y_ * m.z()) * m.z());
+    const S tail = S(exp(S(-r2(m))));
+    if (!(tail > 0)) return S(0); // m.z() may be so small that its powers are 0
+    return tail / (pi<S> * (alpha_x_ * m.z()) * (alpha_y_ * m.z()) * m.z());
   }
   Vec2<S> invert(const Vec3<S>& m) const {
     using std::expm1;

@@ -8,7 +8,7 @@
 
 namespace mc {
 
-/// Independent pairs (a, b). Concatenates the coordinates of u and of the points; nest products for more factors.
+/// Independent pairs (a, b). Concatenates the coordinates of u and of the points. A factor may be a product.
 ///   pdf    : pdf_a(a) pdf_b(b).
 ///   invert : each factor separately, with the bounds of the factors. Present if both factors are invertible.
 template <Warp A, Warp B>

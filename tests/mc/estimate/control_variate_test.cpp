@@ -136,6 +136,14 @@ TEST(CrossFittedEstimate, ErrorBarIsCalibrated) {
   EXPECT_THAT(within2 / 2000.0, testing::AllOf(testing::Ge(0.940), testing::Le(0.968)));
 }
 
+TEST(CrossFittedEstimate, RefusesDifferentMeans) {
+  mc::Pcg random(4);
+  ControlVariates other(std::array{means[0], means[1] + 1});
+  const ControlVariates a = drawn(random, 100);
+  EXPECT_THAT(support::error_of([&] { cross_fitted_estimate(a, other); }),
+              testing::HasSubstr("the means of the controls differ"));
+}
+
 TEST(ControlVariates, MergeEqualsAdding) {
   mc::Pcg random(5), again(5);
   ControlVariates parts = drawn(random, 300);

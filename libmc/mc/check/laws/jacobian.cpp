@@ -63,8 +63,12 @@ Check oracle_jacobian(const AnyDistribution& s, const LawOptions& options) {
   return error.check();
 }
 
-// Returns |det d v / d u| at u by differences of step h; NaN if sample fails.
-double determinant_at(const AnyDistribution& s, const AnyDistribution::Uniforms& u, double h) {
+struct Determinant {
+  double value, error; // |det d v / d u|, and its relative error by the rounding of v
+};
+
+// By differences of step h; NaN if sample fails.
+Determinant determinant_at(const AnyDistribution& s, const AnyDistribution::Uniforms& u, double h) {
   const auto n = static_cast<std::size_t>(s.domain.dim);
   Matrix<double> j{};
   for (std::size_t axis = 0; axis < n; ++axis) {
@@ -72,15 +76,22 @@ double determinant_at(const AnyDistribution& s, const AnyDistribution::Uniforms&
     ahead[axis] += h;
     behind[axis] -= h;
     const auto a = s.sample(ahead), b = s.sample(behind);
-    if (!a || !b) return std::numeric_limits<double>::quiet_NaN();
+    if (!a || !b) return {std::numeric_limits<double>::quiet_NaN(), 0};
     const AnyDomain::Coordinates va = s.domain.to_unit(a->x), vb = s.domain.to_unit(b->x);
     for (std::size_t i = 0; i < n; ++i) j[i][axis] = (va[i] - vb[i]) / (2 * h);
   }
-  return std::abs(determinant(j, n));
+  const AnyDomain::Coordinates v = s.domain.to_unit(s.sample(u)->x);
+  double error = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double slope = 0;
+    for (std::size_t axis = 0; axis < n; ++axis) slope = std::max(slope, std::abs(j[i][axis]));
+    error += resolution(s.domain, s.epsilon(), v, i) / (h * slope);
+  }
+  return {std::abs(determinant(j, n)), error};
 }
 
-// Differences of three steps give an error estimate, which is subtracted. An ill-conditioned map may still show large
-// rounding errors at single points, so the law tests the upper quartile.
+// Estimates of the two errors are subtracted: the spread of three steps, and the effect of the rounding of the points.
+// An ill-conditioned map may still show large rounding errors at single points, so the law tests the upper quartile.
 std::vector<Check> double_jacobian(const AnyDistribution& s, const LawOptions& options) {
   constexpr double limit = 1e-6, first_step = 0x1p-12;
   struct Point {
@@ -96,9 +107,11 @@ std::vector<Check> double_jacobian(const AnyDistribution& s, const LawOptions& o
     const auto x = s.sample(u);
     if (!x || x->atom >= 0) continue;
     const double claim = s.pdf(x->x) * s.domain.from_unit(s.domain.to_unit(x->x)).jacobian;
-    const double a = claim * determinant_at(s, u, first_step), b = claim * determinant_at(s, u, first_step / 2),
-                 c = claim * determinant_at(s, u, first_step / 4);
-    const double spread = std::max({a, b, c}) - std::min({a, b, c}), off = std::abs(c - 1) - 16 * spread;
+    const Determinant last = determinant_at(s, u, first_step / 4);
+    const double a = claim * determinant_at(s, u, first_step).value,
+                 b = claim * determinant_at(s, u, first_step / 2).value, c = claim * last.value;
+    const double spread = std::max({a, b, c}) - std::min({a, b, c});
+    const double off = std::abs(c - 1) - 16 * spread - 4 * last.error;
     points.push_back({off > 0 ? off : 0.0, c, u});
   }
   Check check{"|det| pdf = 1, upper quartile", Verdict::pass, {}, 0, 0, limit, Fault::jacobian, {}};
