@@ -265,7 +265,7 @@ void bind_vector_integral(py::module_& m) {
               for (std::size_t j = 0; j < k; ++j) c.mutable_data()[i * k + j] = r.covariance(i, j);
             return c;
           },
-          "Covariance matrix of the errors (k, k).")
+          "Covariance matrix of the errors (k, k); not finite where an error is unknown.")
       .def("__len__", [](const mc::VectorIntegral& r) { return r.outputs.size(); })
       .def("__getitem__",
            [](const mc::VectorIntegral& r, std::size_t i) {

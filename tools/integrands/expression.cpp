@@ -11,8 +11,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <optional>
+#include <system_error>
 #include <unordered_map>
 
 namespace carlo {
@@ -65,6 +67,9 @@ std::string_view remedy(std::string_view expression, std::size_t at, const std::
   const std::size_t last = at > 0 ? expression.find_last_not_of(" \t", at - 1) : expression.npos;
   const std::string_view before = expression.substr(0, last + 1); // also for no text: npos + 1 is 0
   std::string_view here = expression.substr(at);
+  double number;
+  if (std::from_chars(here.data(), here.data() + here.size(), number).ec == std::errc::result_out_of_range)
+    return "a number must be at least 2.3e-308 and at most 1.7e308";
   const auto in_value = [](char c) { return in_word(c) || c == '.'; };
   const bool two_values = !before.empty() && !here.empty() && (in_value(before.back()) || before.back() == ')') &&
                           (in_value(here[0]) || here[0] == '(');

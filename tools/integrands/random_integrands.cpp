@@ -1,6 +1,7 @@
 #include <integrands/parameter_draw.h>
 #include <integrands/random_integrands.h>
 
+#include <mc/core/probit.h>
 #include <mc/core/types.h>
 
 #include <cmath>
@@ -190,6 +191,30 @@ UnitCubeIntegral powers(std::uint64_t seed) {
   });
 }
 
+// The area of a x + b y < c in the unit square.
+double half_plane(double a, double b, double c) {
+  const auto square = [](double x) { return mc::sqr(std::max(x, 0.0)); };
+  return (square(c) - square(c - a) - square(c - b) + square(c - a - b)) / (2 * a * b);
+}
+
+UnitCubeIntegral aligned(std::uint64_t seed) {
+  Draw d(seed, 1, 2);
+  if (d.dim == 2) {
+    const double a = d.integer(1, 3), b = d.integer(1, 3), c = (a + b) * d.integer(1, 7) / 8;
+    return d.made("aligned", half_plane(a, b, c), [=](UnitPoint x) { return a * x[0] + b * x[1] < c ? 1.0 : 0.0; });
+  }
+  const int kind = d.integer(0, 2);
+  const double k = d.between(0.5, 3);
+  if (kind == 0)
+    return d.made("aligned", 1 + std::exp(-k * k / 2), [k](UnitPoint x) { return 1 + std::cos(k * mc::probit(x[0])); });
+  const double n = kind == 1 ? d.between(2, 20) : d.integer(100, 10'000), whole = std::floor(n);
+  if (kind == 1)
+    return d.made("aligned", whole * ((whole - 1) / 2 + n - whole) / n,
+                  [n](UnitPoint x) { return std::floor(n * x[0]); });
+  return d.made("aligned", std::expm1(k) / (n * std::expm1(k / n)),
+                [k, n](UnitPoint x) { return std::exp(k * std::floor(n * x[0]) / n); });
+}
+
 } // namespace
 
 const std::vector<IntegrandClass>& integrand_classes() {
@@ -205,7 +230,8 @@ const std::vector<IntegrandClass>& integrand_classes() {
       {"ridge", "a Gaussian with turned axes", true, ridge},
       {"needle", "a long thin one, that few points meet", true, needle},
       {"wave", "the cosine of a linear form", true, wave},
-      {"product", "a product of |4 x - 2|^p", true, powers}};
+      {"product", "a product of |4 x - 2|^p", true, powers},
+      {"aligned", "edges and periods that fit the points", true, aligned}};
   return list;
 }
 

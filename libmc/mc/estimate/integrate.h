@@ -158,8 +158,7 @@ struct VectorIntegral {
   double correlation(std::size_t i, std::size_t j) const { return correlations[i * outputs.size() + j]; }
   /// Covariance of the errors of outputs i and j: the squared std_error for i = j. Not finite if an error is unknown.
   double covariance(std::size_t i, std::size_t j) const {
-    const double c = correlation(i, j), product = outputs[i].estimate.std_error * outputs[j].estimate.std_error;
-    return c == 0 ? 0 : c * product;
+    return correlation(i, j) * outputs[i].estimate.std_error * outputs[j].estimate.std_error;
   }
 };
 

@@ -25,11 +25,17 @@ void Extremes::add(std::span<const double> values) {
     for (const double x : values)
       if (std::isfinite(x)) finite.push_back(x);
     if (finite.size() < values.size()) return add(finite);
-    sum = std::numeric_limits<double>::max();
+  }
+  if (values.empty()) return;
+  const double n = static_cast<double>(values.size());
+  double mean = sum / n;
+  if (!std::isfinite(sum)) {
+    mean = 0;
+    for (const double x : values) mean += std::abs(x) / n;
   }
   count_ += values.size();
   zeros_ += zeros;
-  sum_of_sizes_ += sum;
+  mean_size_ += (mean - mean_size_) * (n / static_cast<double>(count_));
   for (const double x : values) {
     if (x > high_cut_) [[unlikely]]
       high_.push_back(x);
@@ -53,9 +59,10 @@ void Extremes::compact() {
 }
 
 void Extremes::merge(const Extremes& other) {
+  if (other.count_ == 0) return;
   count_ += other.count_;
   zeros_ += other.zeros_;
-  sum_of_sizes_ += other.sum_of_sizes_;
+  mean_size_ += (other.mean_size_ - mean_size_) * (static_cast<double>(other.count_) / static_cast<double>(count_));
   high_cut_ = std::max(high_cut_, other.high_cut_);
   low_cut_ = std::min(low_cut_, other.low_cut_);
   high_.insert(high_.end(), other.high_.begin(), other.high_.end());

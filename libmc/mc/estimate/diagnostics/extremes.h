@@ -22,16 +22,14 @@ class Extremes {
   Extremes for_more_values() const;
 
   /// The values, see mc/run/archive.h.
-  template <class Archive> void archive(Archive& a) {
-    a(count_, zeros_, sum_of_sizes_, high_cut_, low_cut_, high_, low_);
-  }
+  template <class Archive> void archive(Archive& a) { a(count_, zeros_, mean_size_, high_cut_, low_cut_, high_, low_); }
 
   /// Number of finite values.
   std::uint64_t count() const { return count_; }
   /// Number of zeros.
   std::uint64_t zeros() const { return zeros_; }
-  /// Sum of the absolute values.
-  double sum_of_sizes() const { return sum_of_sizes_; }
+  /// Mean of the absolute values; 0 without values.
+  double mean_size() const { return mean_size_; }
   /// Largest value; 0 without values.
   double hi() const;
   /// Smallest value; 0 without values.
@@ -45,7 +43,7 @@ class Extremes {
   void compact();
 
   std::uint64_t count_ = 0, zeros_ = 0;
-  double sum_of_sizes_ = 0;
+  double mean_size_ = 0;
   double high_cut_, low_cut_; // only values above or below can be kept
   std::vector<double> high_, low_;
 

@@ -58,7 +58,7 @@ TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t) 
 }
 
 namespace {
-// Shape of the heavier tail that all of the last lengths show; -infinity before there are enough of them.
+// Shape of the heavier tail that most of the last lengths show; -infinity before there are enough of them.
 double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t) {
   double heavier = -infinity<double>;
   if (shapes.size() < t.persistent) return heavier;
@@ -73,14 +73,14 @@ double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tun
 
 // Share of the sum that few values and those beyond the largest hold.
 double share_of_few(const Extremes& extremes, const std::array<double, 2>& unsampled, const Tuning& t) {
-  const double sum = extremes.sum_of_sizes(), count = static_cast<double>(extremes.count());
+  const double size = extremes.mean_size(), count = static_cast<double>(extremes.count());
   double most = 0;
   for (const auto side : {TailSide::smallest, TailSide::largest}) {
     const bool above = side == TailSide::largest;
-    const double missing = unsampled[above] * (count / sum);
+    const double missing = unsampled[above] / size;
     double few = missing;
     for (const double x : above ? extremes.largest(t.few_values) : extremes.smallest(t.few_values))
-      few += std::abs(x) / sum;
+      few += std::abs(x) / size / count;
     most = std::max(most, few / (1 + missing));
   }
   return most;
@@ -105,17 +105,21 @@ ErrorBar judge(const Extremes& extremes, const std::array<double, 2>& unsampled,
 Mean mean_of_replicates(std::span<const double> means, double points, const SampledValues& values, int dim,
                         SpreadHistory& history, const Tuning& t) {
   const Extremes& extremes = values.averaged;
-  const double replicates = static_cast<double>(means.size()), count = static_cast<double>(extremes.count());
+  const double replicates = static_cast<double>(means.size());
   const int exponent = largest_exponent(means);
   Moments scaled;
   for (const double x : means) scaled.add(std::ldexp(x, -exponent));
   const double spread = std::ldexp(std::sqrt(scaled.variance()), exponent);
   // Where values of both signs cancel, rounding is relative to their size.
-  const double mean_size = count > 0 ? extremes.sum_of_sizes() / count : 0,
-               scale = std::max(largest_size(means), mean_size);
+  const double scale = std::max(largest_size(means), extremes.mean_size());
   history.points.push_back(points);
   history.spreads.push_back(spread > rounding * scale ? spread : 0.0);
-  const double deviation = pooled_spread(history.points, history.spreads, t);
+  const bool constant = is_constant(extremes);
+  double deviation = pooled_spread(history.points, history.spreads, t);
+  // Where replicates agree and seldom differed before, they may do so by chance.
+  if (history.spreads.back() == 0 && !convergence_rate(history.points, history.spreads, t))
+    deviation = std::max(deviation, t.unseen_value * (constant ? size_of(extremes) : extremes.hi() - extremes.lo()) /
+                                        points / std::sqrt(replicates));
   const TailFindings tails = tails_of(values, deviation / std::sqrt(replicates), t);
   history.shapes.push_back(tails.shape);
   std::array<double, 2> unsampled{};
@@ -126,18 +130,14 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
 
   Mean m{.value = std::ldexp(scaled.mean(), exponent), .dof = replicates - 1};
   m.bar = judge(extremes, unsampled, history.shapes, dim, t);
-  const double shape = std::max(tails.shape[0], tails.shape[1]);
+  const double shape = history.shapes.size() < t.persistent ? std::max(tails.shape[0], tails.shape[1])
+                                                            : persistent_shape(history.shapes, t);
   m.tail_index = shape > 0 ? 1 / shape : infinity<double>;
   if (m.bar == ErrorBar::all_zero) return m;
-  m.constant = is_constant(extremes);
+  m.constant = constant;
   m.tail = unsampled;
-  double of_replicates = deviation;
-  if (deviation == 0) // no replicate ever differed: they may do so by one jump, or by one unseen value
-    of_replicates = m.constant ? t.unseen_value * size_of(extremes) / points / std::sqrt(replicates)
-                               : t.hidden_jump * (extremes.hi() - extremes.lo()) / points / std::sqrt(replicates);
   m.skew = history.spreads.back() > 0 ? skew_of_mean(means, t) : 0;
-  m.error =
-      std::max({of_replicates / std::sqrt(replicates), std::numeric_limits<double>::epsilon() * scale, least_error});
+  m.error = std::max({deviation / std::sqrt(replicates), std::numeric_limits<double>::epsilon() * scale, least_error});
   return m;
 }
 

@@ -71,7 +71,8 @@ void Replicates::measure() {
 double Replicates::rate() const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < run_->primary(); ++k)
-    least = std::min(least, convergence_rate(histories_[k].points, histories_[k].spreads, run_->tuning));
+    least = std::min(
+        least, convergence_rate(histories_[k].points, histories_[k].spreads, run_->tuning).value_or(unknown_rate));
   return least;
 }
 

@@ -79,7 +79,7 @@ TEST(ErrorBar, IntervalIsStudentsTWithItsCorrections) {
 TEST(MeanOfReplicates, EqualReplicatesHaveAnError) {
   SpreadHistory history, other, nothing;
   const std::vector<double> halves(replicates, 0.5);
-  EXPECT_DOUBLE_EQ(mean_at(halves, 64, sampled({0, 1, 1, 0}), history).error, 0.75 / 64 / replicates);
+  EXPECT_DOUBLE_EQ(mean_at(halves, 64, sampled({0, 1, 1, 0}), history).error, 1.5 / 64 / replicates);
   const Mean constant = mean_at(halves, 64, sampled({0.5, 0.5}), other);
   EXPECT_TRUE(constant.constant);
   EXPECT_NEAR(mc::detail::interval(constant, 0.95).hi - 0.5, 0.5 * 3 / (64 * replicates), 0.1 * 0.5 * 3 / (64 * 16));
@@ -92,7 +92,7 @@ TEST(MeanOfReplicates, RoundingByCancellationIsNotSpread) {
   SpreadHistory history;
   std::vector<double> means(replicates, 0.009);
   for (std::size_t i = 0; i < replicates; i += 2) means[i] += 4e-16;
-  EXPECT_NEAR(mean_at(means, 1024, sampled({3, -1.4, -1.4}), history).error, 0.75 * 4.4 / 1024 / replicates, 1e-9);
+  EXPECT_NEAR(mean_at(means, 1024, sampled({3, -1.4, -1.4}), history).error, 1.5 * 4.4 / 1024 / replicates, 1e-9);
 }
 
 // Steps of random heights at random places, plus a smooth part that soon becomes exact. Each replicate has either of

@@ -6,7 +6,8 @@
 
 namespace mc::detail {
 
-double convergence_rate(std::span<const double> points, std::span<const double> spreads, const Tuning& t) {
+std::optional<double> convergence_rate(std::span<const double> points, std::span<const double> spreads,
+                                       const Tuning& t) {
   const std::size_t n = points.size();
   double count = 0, x = 0, y = 0, xx = 0, xy = 0;
   double size = 0; // a power of two in every spread must not change the result
@@ -22,12 +23,12 @@ double convergence_rate(std::span<const double> points, std::span<const double> 
     xy += a * b;
   }
   const double variance = count * xx - x * x;
-  if (count < 3 || !(variance > 0)) return 0.5;
+  if (count < 3 || !(variance > 0)) return {};
   return std::clamp(-(count * xy - x * y) / variance, 0.0, t.max_rate);
 }
 
 double pooled_spread(std::span<const double> points, std::span<const double> spreads, const Tuning& t) {
-  const double rate = convergence_rate(points, spreads, t);
+  const double rate = convergence_rate(points, spreads, t).value_or(unknown_rate);
   // Two lengths do not tell a rate, so that the present one counts alone.
   const std::size_t n = points.size(), pooled = n < 3 ? 1 : std::min(n, t.pooled_lengths);
   double largest = 0; // so that no square overflows or underflows
@@ -36,7 +37,7 @@ double pooled_spread(std::span<const double> points, std::span<const double> spr
   double sum = 0;
   for (std::size_t i = n - pooled; i < n; ++i)
     sum += sqr(spreads[i] / largest * std::pow(points[i] / points[n - 1], rate));
-  return largest * std::sqrt(sum / static_cast<double>(pooled));
+  return std::max(largest * std::sqrt(sum / static_cast<double>(pooled)), spreads.back());
 }
 
 } // namespace mc::detail

@@ -20,7 +20,7 @@ std::vector<double> falling(double rate) {
 
 TEST(PooledVariance, PowerLawIsReproduced) {
   for (const double rate : {0.0, 0.5, 1.5, 2.5}) {
-    EXPECT_NEAR(convergence_rate(lengths, falling(rate)), rate, 1e-12);
+    EXPECT_NEAR(*convergence_rate(lengths, falling(rate)), rate, 1e-12);
     EXPECT_NEAR(pooled_spread(lengths, falling(rate)), falling(rate).back(), 1e-12 * falling(rate).back());
   }
   for (const double scale : {1e-300, 1e300}) {
@@ -31,12 +31,13 @@ TEST(PooledVariance, PowerLawIsReproduced) {
 }
 
 // Interlaced points reach 2.5; a fitted rate may exceed that by 1.
-TEST(PooledVariance, RateIsClippedAndHasADefault) {
+TEST(PooledVariance, RateIsClippedAndNeedsThreeLengths) {
   EXPECT_EQ(convergence_rate(lengths, falling(9)), 3.5);
   std::vector<double> rising = falling(0.5);
   std::reverse(rising.begin(), rising.end());
   EXPECT_EQ(convergence_rate(lengths, rising), 0);
-  EXPECT_EQ(convergence_rate(std::vector<double>{64, 128}, std::vector<double>{1, 0.5}), 0.5);
+  EXPECT_FALSE(convergence_rate(std::vector<double>{64, 128}, std::vector<double>{1, 0.5}));
+  EXPECT_FALSE(convergence_rate(lengths, std::vector<double>{1, 0, 0, 0.5, 0, 0, 0.25})); // only two of the last six
 }
 
 // Replicates that agree by chance at the last length must not make the error vanish.
@@ -48,11 +49,18 @@ TEST(PooledVariance, AgreementByChance_KeepsEarlierSpreads) {
   EXPECT_EQ(pooled_spread(lengths, std::vector<double>(lengths.size(), 0.0)), 0);
 }
 
+// Where the spread falls in steps, the present one may lie above the line through the others.
+TEST(PooledVariance, IsAtLeastThePresentSpread) {
+  std::vector<double> spreads = falling(1.5);
+  spreads.back() = spreads[spreads.size() - 2];
+  EXPECT_EQ(pooled_spread(lengths, spreads), spreads.back());
+}
+
 // Six lengths tell the rate. Earlier ones, at which the points do not yet resolve the integrand, do not matter.
 TEST(PooledVariance, EarlyLengthsDoNotTellTheRate) {
   std::vector<double> spreads = falling(1.5);
   spreads[0] *= 1e3;
-  EXPECT_NEAR(convergence_rate(lengths, spreads), 1.5, 1e-12);
+  EXPECT_NEAR(*convergence_rate(lengths, spreads), 1.5, 1e-12);
   spreads[1] *= 2;
   EXPECT_GT(convergence_rate(lengths, spreads), 1.6);
 }
