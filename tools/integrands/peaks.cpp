@@ -39,17 +39,15 @@ PeakMixture::Axis PeakMixture::axis(const std::string& name, double centre, doub
       std::find_if(bounds_.begin(), bounds_.end(), [&](const VariableBounds& s) { return s.name == name; });
   mc::require(found != bounds_.end(), "there is no variable '{}'; the variables are {}", name,
               first_variables(bounds_.size(), [&](std::size_t i) { return bounds_[i].name; }));
-  mc::require(found->lo < found->hi, "{} is not between constant bounds; name variables that are, as in x=0:1",
-              name);
+  mc::require(found->lo < found->hi, "{} is not between constant bounds; name variables that are, as in x=0:1", name);
   mc::require(centre >= found->lo && centre <= found->hi, "{} = {:g} lies outside of its bounds {:g} and {:g}", name,
               centre, found->lo, found->hi);
   mc::require(width > 0, "the width {:g} of {} must be above 0", width, name);
   // The spacing of doubles limits x itself, and the coordinate of the unit cube that x is computed from.
   const double u = inner_coordinate(*found, centre);
   const double least = 0x1p-48 * std::max(std::abs(centre), u * map_to_bounds(*found, u).slope);
-  mc::require(width >= least,
-              "the width {:g} of {} is below {:.2g}, which doubles resolve at {:g}{}", width, name, least, centre,
-              centre == 0 ? "" : fmt::format("; shift {} to 0 there", name));
+  mc::require(width >= least, "the width {:g} of {} is below {:.2g}, which doubles resolve at {:g}{}", width, name,
+              least, centre, centre == 0 ? "" : fmt::format("; shift {} to 0 there", name));
   return {static_cast<std::size_t>(found - bounds_.begin()), centre, width, std::atan((found->lo - centre) / width),
           std::atan((found->hi - centre) / width)};
 }

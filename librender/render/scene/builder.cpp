@@ -26,6 +26,9 @@ void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
       materials_[bsdf].needs_uv() || (properties.emission && properties.emission->texture.has_value());
   mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs{}{}",
               surfaces_.size(), properties.missing_uv_reason.empty() ? "" : ": ", properties.missing_uv_reason);
+  mc::require(!properties.emission || !materials_[bsdf].is_invisible(),
+              "scene: shape {} shines and its BSDF is null, which is not supported; remove one of them",
+              surfaces_.size());
   mc::require(!properties.emission || !materials_[bsdf].mask,
               "scene: shape {} shines through a mask, which is not supported; remove one of them", surfaces_.size());
   mc::require(!properties.interior || !materials_[bsdf].mask || materials_[bsdf].is_invisible(),

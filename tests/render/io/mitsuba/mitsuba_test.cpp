@@ -123,6 +123,10 @@ TEST_F(Mitsuba, MasksNameWhatIsWrong) {
               testing::HasSubstr("s.xml:3: <bsdf>: a mask inside another; make one of both"));
   EXPECT_THAT(said(diffuse, "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter>"),
               testing::HasSubstr("s.xml:3: scene: shape 0 shines through a mask, which is not supported"));
+  EXPECT_THAT(refusal(std::string(sensor) +
+                      "\n<shape type=\"sphere\"><emitter type=\"area\">"
+                      "<rgb name=\"radiance\" value=\"1\"/></emitter><bsdf type=\"null\"/></shape>"),
+              testing::HasSubstr("s.xml:3: scene: shape 0 shines and its BSDF is null, which is not supported"));
   EXPECT_THAT(
       said("<texture type=\"checkerboard\" name=\"opacity\"><rgb name=\"color0\" value=\"2\"/></texture>" + diffuse),
       testing::HasSubstr("s.xml:3: <bsdf>: mask: opacity: color0 (2, 2, 2) must lie in [0, 1]"));
