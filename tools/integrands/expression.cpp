@@ -69,7 +69,7 @@ std::string_view remedy(std::string_view expression, std::size_t at, const std::
   std::string_view here = expression.substr(at);
   double number;
   if (std::from_chars(here.data(), here.data() + here.size(), number).ec == std::errc::result_out_of_range)
-    return "a number must be at least 2.3e-308 and at most 1.7e308";
+    return "a number must be at most 1.7e308";
   const auto in_value = [](char c) { return in_word(c) || c == '.'; };
   const bool two_values = !before.empty() && !here.empty() && (in_value(before.back()) || before.back() == ')') &&
                           (in_value(here[0]) || here[0] == '(');

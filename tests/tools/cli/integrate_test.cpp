@@ -108,7 +108,7 @@ TEST(Expression, SyntaxErrorsSuggestTheRightSpelling) {
   for (const char* e : {"e^x", "2e*x"}) EXPECT_THAT(message(e), testing::HasSubstr(": e is _e;")) << e;
   for (const char* e : {"2x", "2 x", ".5x", "2.x", "2(x)", "(x)(x)", "x(2)", "2sin(x)", "sin(2x)", "x 2", "2_pi"})
     EXPECT_THAT(message(e), testing::EndsWith(": an operator is missing; a product is 2*x")) << e;
-  for (const char* e : {"1e400", "x+1e-400"}) EXPECT_THAT(message(e), testing::EndsWith("at most 1.7e308")) << e;
+  EXPECT_EQ(message("x+1e400"), "expression 'x+1e400', position 2: a number must be at most 1.7e308");
   EXPECT_EQ(message("2*expo"),
             "expression '2*expo', position 2: unknown name 'expo'; did you mean 'exp'?; use one of x, _e, _pi");
   EXPECT_EQ(message("a*x + 1e5 + b*a"),

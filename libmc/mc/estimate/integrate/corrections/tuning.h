@@ -13,8 +13,8 @@ struct Tuning {
   std::size_t pooled_lengths = 4; ///< Lengths that are averaged, the present one included.
   std::size_t rate_lengths = 6;   ///< Lengths to which the rate of convergence is fitted.
   double max_rate = 3.5;          ///< Largest rate: interlaced points reach 2.5.
-  /// Standard error by values that no point met, in units of range / number of points; of a constant, of its size. Times
-  /// t this is the rule of three.
+  /// Standard error by values that no point met, in units of range / number of points; of a constant, of its size.
+  /// Times t this is the rule of three.
   double unseen_value = 1.5;
   // Skewness.
   double skewness = 1; ///< Share of Johnson's shift.
