@@ -262,6 +262,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   const RenderResult timed = render::render(scene, options);
   EXPECT_EQ(timed.estimates, 2u);
   EXPECT_FALSE(timed.partial);
+  options.spp = -5;       // does not count
   options.seconds = 1e-9; // the first round is always completed
   const RenderResult least = render::render(scene, options);
   EXPECT_EQ(least.samples, 2u * 24 * 20);

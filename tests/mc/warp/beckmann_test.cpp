@@ -76,6 +76,11 @@ TEST(BeckmannVisibleNormals, AreaIsTheIntegralOfVisibleFacets) {
     }
 }
 
+// The powers of m_z underflow here, and the tail does so earlier.
+TEST(BeckmannNormals, DensityNextToTheHorizonIsZero) {
+  for (const double z : {1e-5, 1e-150, 1e-300}) EXPECT_EQ(mc::BeckmannNormals<double>(0.3).pdf({1, 0, z}), 0) << z;
+}
+
 TEST(BeckmannVisibleNormals, RefusesNonsense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double a : {0.0, -1.0, 1e-7, nan}) EXPECT_THROW((BeckmannVisibleNormals<double>({0, 0, 1}, a)), Error);

@@ -86,6 +86,33 @@ TEST(MeanOfReplicates, EqualReplicatesHaveAnError) {
   EXPECT_EQ(mean_at(std::vector<double>(replicates, 0.0), 64, sampled({0, 0}), nothing).bar, mc::ErrorBar::all_zero);
 }
 
+// The sum of the values overflows, their mean does not.
+TEST(MeanOfReplicates, HugeValuesHaveAnError) {
+  SpreadHistory history;
+  std::vector<double> means(replicates, 1e308);
+  means[0] = 1.01e308;
+  const Mean m = mean_at(means, 64, sampled({0.9e308, 1e308, 1.1e308}), history);
+  EXPECT_NEAR(m.error, 1e306 / std::pow(replicates, 1.0), 1e302);
+  EXPECT_EQ(m.bar, mc::ErrorBar::known);
+}
+
+// The tail index is that of the shape that decides: the median of the last three.
+TEST(MeanOfReplicates, TailIndexIsTheOneThatDecides) {
+  mc::Pcg random(1);
+  std::vector<double> values(4096);
+  for (double& x : values) x = random.uniform<double>(); // a bounded tail
+  SpreadHistory history;
+  history.points = {16, 32};
+  history.spreads = {1, 1};
+  history.shapes = {{0, 0.8}, {0, 0.9}};
+  history.contributions = {std::vector<double>{0, 0}, std::vector<double>{0, 0}};
+  std::vector<double> means(replicates, 0.5);
+  means[0] = 0.51;
+  const Mean m = mean_at(means, 64, sampled(values), history);
+  EXPECT_EQ(m.bar, mc::ErrorBar::infinite_variance);
+  EXPECT_DOUBLE_EQ(m.tail_index, 1 / 0.8);
+}
+
 // A step of 4.4 with an integral of .009. The rounding error that separates equal replicates depends on the size of the
 // values, not on the size of their mean.
 TEST(MeanOfReplicates, RoundingByCancellationIsNotSpread) {
