@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace bindings {
@@ -27,6 +26,15 @@ Heuristic heuristic_of(const std::string& name, double beta, double alpha) {
   return Heuristic::maximum();
 }
 
+// `what` begins the message, as in "a density of".
+void require_densities(std::span<const double> values, const std::string& what) {
+  for (const double one : values) mc::require(one >= 0, "{} {}; it must be >= 0", what, one);
+}
+void require_counts(std::span<const double> values, const std::string& what) {
+  for (const double one : values)
+    mc::require(one >= 0 && std::isfinite(one), "{} {}; it must be finite and >= 0", what, one);
+}
+
 Array weights(const ArrayLike& densities, const py::object& counts, const std::string& name, double beta,
               double alpha) {
   const Array p = to_array(densities, "weights: densities");
@@ -39,9 +47,8 @@ Array weights(const ArrayLike& densities, const py::object& counts, const std::s
     mc::require(static_cast<std::size_t>(given.size()) == k, "weights: {} counts for {} techniques", given.size(), k);
     std::copy_n(given.data(), k, n.begin());
   }
-  for (const double one : span_of(p)) mc::require(one >= 0, "weights: a density of {}; it must be >= 0", one);
-  for (const double one : n)
-    mc::require(one >= 0 && std::isfinite(one), "weights: a count of {}; it must be finite and >= 0", one);
+  require_densities(span_of(p), "weights: a density of");
+  require_counts(n, "weights: a count of");
   const Heuristic heuristic = heuristic_of(name, beta, alpha);
   Array w(std::vector<py::ssize_t>(p.shape(), p.shape() + p.ndim()));
   for (std::size_t row = 0; row < static_cast<std::size_t>(p.size()); row += k)
@@ -50,24 +57,16 @@ Array weights(const ArrayLike& densities, const py::object& counts, const std::s
   return w;
 }
 
-// Densities, or numbers of samples, of a heuristic.
-py::array_t<double> checked(const ArrayLike& values, const std::string& what, double most) {
-  Array array = to_array(values, what);
-  for (const double one : span_of(std::as_const(array)))
-    mc::require(one >= 0 && one <= most, "{} is {}; it must be {}>= 0", what, one,
-                std::isinf(most) ? "" : "finite and ");
-  return array;
-}
-
 template <double (*F)(double, double, double, double)> void bind_heuristic(py::module_& m, const char* name) {
   m.def(
       name,
       [name = std::string(name)](const ArrayLike& f, const ArrayLike& g, const ArrayLike& n_f, const ArrayLike& n_g) {
-        constexpr double most = std::numeric_limits<double>::max();
-        const py::array_t<double> of_f = checked(f, name + ": f", mc::infinity<double>),
-                                  of_g = checked(g, name + ": g", mc::infinity<double>),
-                                  count_f = checked(n_f, name + ": n_f", most),
-                                  count_g = checked(n_g, name + ": n_g", most);
+        const Array of_f = to_array(f, name + ": f"), of_g = to_array(g, name + ": g"),
+                    count_f = to_array(n_f, name + ": n_f"), count_g = to_array(n_g, name + ": n_g");
+        require_densities(span_of(of_f), name + ": f is");
+        require_densities(span_of(of_g), name + ": g is");
+        require_counts(span_of(count_f), name + ": n_f is");
+        require_counts(span_of(count_g), name + ": n_g is");
         try {
           py::module_::import("numpy").attr("broadcast_shapes")(of_f.attr("shape"), of_g.attr("shape"),
                                                                 count_f.attr("shape"), count_g.attr("shape"));
@@ -75,7 +74,8 @@ template <double (*F)(double, double, double, double)> void bind_heuristic(py::m
           throw mc::Error(fmt::format("{}: arrays of shapes {}, {}, {} and {} cannot be broadcast", name,
                                       shape_text(of_f), shape_text(of_g), shape_text(count_f), shape_text(count_g)));
         }
-        return py::vectorize(F)(count_f, of_f, count_g, of_g);
+        using Arg = py::array_t<double>;
+        return py::vectorize(F)(Arg(count_f), Arg(of_f), Arg(count_g), Arg(of_g));
       },
       arg("f"), arg("g"), arg("n_f") = 1.0, arg("n_g") = 1.0,
       (contract(name) + "\n\nArrays are broadcast. f, g: densities; n_f, n_g: numbers of samples.").c_str());

@@ -83,7 +83,7 @@ Image to_image(const py::handle& object) {
   return render::read_image(py::reinterpret_borrow<PathLike>(object).text());
 }
 std::string name_of(const py::handle& object, const char* name) {
-  return py::isinstance<Picture>(object) ? name : py::str(object).cast<std::string>();
+  return py::isinstance<Picture>(object) ? name : py::reinterpret_borrow<PathLike>(object).text();
 }
 
 struct Comparison {

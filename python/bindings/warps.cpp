@@ -98,11 +98,11 @@ BoundWarp<Mixture> make_mixture(const std::vector<double>& weights, const std::v
   const BoundDomain domain = on.is_none() ? warps.front().domain : to_domain(on);
   const int dim = domain.any.dim, size = domain.any.point_size;
   using Make = AnyWarp(const std::string&, const BoundDomain&, const std::vector<double>&, const std::vector<AnyWarp>&);
-  static const std::map<std::pair<int, int>, Make*> made = {{{1, 1}, mixture_of<1, 1>},
-                                                            {{2, 2}, mixture_of<2, 2>},
-                                                            {{2, 3}, mixture_of<2, 3>},
-                                                            {{3, 3}, mixture_of<3, 3>},
-                                                            {{3, 4}, mixture_of<3, 4>}};
+  static const std::map<std::pair<int, int>, Make*> makers = {{{1, 1}, mixture_of<1, 1>},
+                                                              {{2, 2}, mixture_of<2, 2>},
+                                                              {{2, 3}, mixture_of<2, 3>},
+                                                              {{3, 3}, mixture_of<3, 3>},
+                                                              {{3, 4}, mixture_of<3, 4>}};
   std::string names;
   for (const AnyWarp& w : warps) {
     mc::require(w.domain.any.dim == dim && w.domain.any.point_size == size,
@@ -111,8 +111,9 @@ BoundWarp<Mixture> make_mixture(const std::vector<double>& weights, const std::v
     names += (names.empty() ? "" : ", ") + w.name;
   }
   const std::string name = fmt::format("Mixture([{:g}], [{}])", fmt::join(weights, ", "), names);
-  const auto make = made.find({dim, size});
-  mc::require(make != made.end(), "Mixture: points of {} coordinates on {} axes; 1 to 3 axes are supported", size, dim);
+  const auto make = makers.find({dim, size});
+  mc::require(make != makers.end(), "Mixture: points of {} coordinates on {} axes; 1 to 3 axes are supported", size,
+              dim);
   return BoundWarp<Mixture>(make->second(name, domain, weights, warps));
 }
 

@@ -109,6 +109,11 @@ def test_failed_rows():
     assert not libmc.check(x, lambda x: np.full(len(x), 0.8), "x=0:1", may_fail=True)
 
 
+def test_a_sample_that_ignores_u_is_no_rounding():
+    report = libmc.check(lambda u: 0 * u + 0.5, np.ones_like, "x=0:1", lambda x: x, **QUICK)
+    assert [c.name for c in report.checks if "det" in c.name and c.verdict == "fail"], report.text()
+
+
 # The steps of the law on the derivative are a few spacings of doubles here.
 @pytest.mark.parametrize(
     "warp",

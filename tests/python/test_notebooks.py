@@ -33,7 +33,8 @@ def test_notebook_runs(path, tmp_path, monkeypatch):
     ExecutePreprocessor(timeout=120, kernel_name="python3").preprocess(again, {"metadata": {"path": str(tmp_path)}})
     for before, after in zip(code_cells(committed), code_cells(again)):
         kinds = [sorted({o.output_type for o in cell.outputs}) for cell in (before, after)]
-        assert kinds[0] == kinds[1], "run jupyter nbconvert --execute --inplace, and commit the result"
-        assert words_of(before) == words_of(after), "as above"
+        assert kinds[0] == kinds[1] and words_of(before) == words_of(after), (
+            "run jupyter nbconvert --execute --inplace, and commit the result"
+        )
     assert any("image/png" in o.get("data", {}) for cell in code_cells(again) for o in cell.outputs)
     assert path.stat().st_size < 300_000

@@ -50,6 +50,9 @@ TEST(Discrepancy, MatchesKnownValues) {
   expect(mc::l2_star_discrepancy({four, 2}), 71.0 / 4608);
   expect(mc::centered_discrepancy({middle, 2}), 25.0 / 144);
   expect(mc::wraparound_discrepancy({middle, 2}), 17.0 / 36);
+  const std::vector<double> many(3000, 0.5); // one point, whose squares overflow
+  EXPECT_EQ(mc::wraparound_discrepancy({many, 3000}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mc::mixture_discrepancy({many, 3000}), std::numeric_limits<double>::infinity());
   expect(mc::mixture_discrepancy({middle, 2}), 269.0 / 576);
   expect(mc::centered_discrepancy({four, 2}), 215.0 / 4608);
   expect(mc::wraparound_discrepancy({four, 2}), 65.0 / 576);

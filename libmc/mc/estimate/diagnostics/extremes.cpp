@@ -14,22 +14,20 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Extremes::Extremes() : high_cut_(-infinity), low_cut_(infinity) {}
 
 void Extremes::add(std::span<const double> values) {
+  if (values.empty()) return;
+  const double n = static_cast<double>(values.size());
   double sum = 0;
   std::uint64_t zeros = 0;
   for (const double x : values) {
     sum += std::abs(x);
     zeros += x == 0;
   }
+  double mean = sum / n;
   if (!std::isfinite(sum)) { // non-finite values, or an overflow of the sum
     std::vector<double> finite;
     for (const double x : values)
       if (std::isfinite(x)) finite.push_back(x);
     if (finite.size() < values.size()) return add(finite);
-  }
-  if (values.empty()) return;
-  const double n = static_cast<double>(values.size());
-  double mean = sum / n;
-  if (!std::isfinite(sum)) {
     mean = 0;
     for (const double x : values) mean += std::abs(x) / n;
   }

@@ -57,9 +57,7 @@ TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t) 
   return findings;
 }
 
-namespace {
-// Shape of the heavier tail that most of the last lengths show; -infinity before there are enough of them.
-double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t) {
+double tail_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t) {
   double heavier = -infinity<double>;
   if (shapes.size() < t.persistent) return heavier;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -71,6 +69,7 @@ double persistent_shape(std::span<const std::array<double, 2>> shapes, const Tun
   return heavier;
 }
 
+namespace {
 // Share of the sum that few values and those beyond the largest hold.
 double share_of_few(const Extremes& extremes, const std::array<double, 2>& unsampled, const Tuning& t) {
   const double size = extremes.mean_size(), count = static_cast<double>(extremes.count());
@@ -90,7 +89,7 @@ double share_of_few(const Extremes& extremes, const std::array<double, 2>& unsam
 ErrorBar judge(const Extremes& extremes, const std::array<double, 2>& unsampled,
                std::span<const std::array<double, 2>> shapes, int dim, const Tuning& t) {
   if (size_of(extremes) == 0) return ErrorBar::all_zero;
-  const double count = static_cast<double>(extremes.count()), shape = persistent_shape(shapes, t);
+  const double count = static_cast<double>(extremes.count()), shape = tail_shape(shapes, t);
   // Fewer points than the cube has corners cannot tell a singularity from a peak.
   const bool few_points = dim > std::log2(count);
   // One value among zeros, or few values that hold most of the sum: the next may be of any size.
@@ -130,9 +129,7 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
 
   Mean m{.value = std::ldexp(scaled.mean(), exponent), .dof = replicates - 1};
   m.bar = judge(extremes, unsampled, history.shapes, dim, t);
-  const double shape = history.shapes.size() < t.persistent ? std::max(tails.shape[0], tails.shape[1])
-                                                            : persistent_shape(history.shapes, t);
-  m.tail_index = shape > 0 ? 1 / shape : infinity<double>;
+  m.tail_index = 1 / std::max(tail_shape(history.shapes, t), 0.0);
   if (m.bar == ErrorBar::all_zero) return m;
   m.constant = constant;
   m.tail = unsampled;

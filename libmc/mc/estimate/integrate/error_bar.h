@@ -64,6 +64,9 @@ struct TailFindings {
 /// Findings about the tails. `cap` is an upper bound of the largest excess over the number of values.
 TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t = default_tuning);
 
+/// Shape of the heavier tail that most of the last lengths show; -infinity before there are enough of them.
+double tail_shape(std::span<const std::array<double, 2>> shapes, const Tuning& t = default_tuning);
+
 /// Finding about the error bar from the values, from the contribution of unsampled ones, and from the shapes of the
 /// tails at the last lengths.
 ErrorBar judge(const Extremes& extremes, const std::array<double, 2>& unsampled,

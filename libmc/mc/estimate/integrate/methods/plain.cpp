@@ -20,8 +20,7 @@ Mean mean_of_values(const Run& run, const ScaledMoments& m, const Extremes& extr
             .skew = skew_of_mean(batch_means, run.tuning),
             .bar = judge(extremes, tails.contribution, shapes, run.evaluator.dim, run.tuning)};
   mean.constant = is_constant(extremes);
-  const double shape = std::max(tails.shape[0], tails.shape[1]);
-  mean.tail_index = shape > 0 ? 1 / shape : std::numeric_limits<double>::infinity();
+  mean.tail_index = 1 / std::max(tail_shape(shapes, run.tuning), 0.0);
   mean.error = std::max({m.std_error(), mean.constant ? run.tuning.unseen_value * size / count : 0.0,
                          std::numeric_limits<double>::epsilon() * std::abs(mean.value)});
   if (!mean.constant) mean.tail = tails.contribution;

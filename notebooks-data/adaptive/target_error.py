@@ -1,0 +1,29 @@
+#!/usr/bin/env python3
+"""Share of renders with target_error = .05 whose error is larger. PYTHONPATH must contain libmc."""
+
+import sys
+
+import numpy as np
+
+import libmc
+
+SIZE, TARGET = (16, 16), 0.05
+
+
+def errors(picture, reference):
+    """Relative to the mean of 3x3 pixels, at least half of the mean of the picture, as carlo defines its error."""
+    padded = np.pad(reference, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    around = sum(padded[y : y + SIZE[1], x : x + SIZE[0]] for y in range(3) for x in range(3)) / 9
+    return np.sqrt(np.mean(((picture - reference) / np.maximum(around, reference.mean() / 2)) ** 2))
+
+
+print("scene, renders, larger error, largest, error of the reference")
+for scene in sys.argv[2:]:
+    halves = [libmc.render(scene, size=SIZE, spp=1 << 15, seed=seed).radiance for seed in (1, 2)]
+    reference = (halves[0] + halves[1]) / 2
+    pictures = [
+        libmc.render(scene, size=SIZE, target_error=TARGET, seed=100 + i, threads=1) for i in range(int(sys.argv[1]))
+    ]
+    of = np.array([errors(p.radiance, reference) for p in pictures])
+    noise = errors(halves[0], reference)  # half of the difference: the error of their mean
+    print(f"{scene}, {len(of)}, {np.mean(of > TARGET):.3f}, {of.max():.3f}, {noise:.4f}", flush=True)
