@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Share of renders with target_error = .05 whose error is larger. PYTHONPATH must contain libmc."""
+"""Shares of renders with target_error = .05 whose error, or standard error, is larger. PYTHONPATH: libmc."""
 
 import sys
 
@@ -17,13 +17,19 @@ def errors(picture, reference):
     return np.sqrt(np.mean(((picture - reference) / np.maximum(around, reference.mean() / 2)) ** 2))
 
 
-print("scene, renders, larger error, largest, error of the reference")
+print("scene, renders, larger error, largest, larger standard error, samples per pixel, error of the reference")
 for scene in sys.argv[2:]:
     halves = [libmc.render(scene, size=SIZE, spp=1 << 15, seed=seed).radiance for seed in (1, 2)]
     reference = (halves[0] + halves[1]) / 2
+    noise = errors(halves[0], reference)  # half of the difference: the error of their mean
     pictures = [
         libmc.render(scene, size=SIZE, target_error=TARGET, seed=100 + i, threads=1) for i in range(int(sys.argv[1]))
     ]
     of = np.array([errors(p.radiance, reference) for p in pictures])
-    noise = errors(halves[0], reference)  # half of the difference: the error of their mean
-    print(f"{scene}, {len(of)}, {np.mean(of > TARGET):.3f}, {of.max():.3f}, {noise:.4f}", flush=True)
+    samples = np.array([p.spp for p in pictures])
+    standard = np.sqrt(np.mean(of**2 * samples) / samples)  # of pictures with as many samples
+    print(
+        f"{scene}, {len(of)}, {np.mean(of > TARGET):.3f}, {of.max():.3f}, {np.mean(standard > TARGET):.3f}, "
+        f"{np.median(samples):.0f}, {noise:.4f}",
+        flush=True,
+    )

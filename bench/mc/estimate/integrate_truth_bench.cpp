@@ -74,7 +74,7 @@ void set_constant(mc::detail::Tuning& t, const std::string& text) {
   else if (name == "tail.most") t.tail.most = whole;
   else if (name == "tail_length") t.tail_length = value;
   else if (name == "tail.shape_deviation") t.tail.shape_deviation = value;
-  else if (name == "max_shape") t.max_shape = value;
+  else if (name == "tail.max_shape") t.tail.max_shape = value;
   else if (name == "infinite_variance") t.infinite_variance = value;
   else if (name == "persistent") t.persistent = whole;
   else if (name == "few_values") t.few_values = whole;

@@ -2,6 +2,7 @@
 #include <render/film/film_block.h>
 
 #include <mc/core/error.h>
+#include <mc/estimate/diagnostics/tail.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/t_test.h>
 
@@ -39,35 +40,47 @@ MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const E
   return all;
 }
 
-// Upper bound of the sum of variances with 95 % confidence.
+constexpr double confidence = 0.95;
+
+// Upper bound of the sum of variances.
 double bound_of(const mc::VarianceSum& sum) {
   const double dof = sum.dof();
-  return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(0.95, dof) : sum.value;
+  return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(confidence, dof) : sum.value;
+}
+
+// Upper bound of what unsampled values beyond the largest add to the sum: no value exceeds the largest with probability
+// alpha if -log(alpha) are expected to.
+double bound_beyond(const mc::Extremes& values) {
+  return -std::log(1 - confidence) * mc::excess_beyond(mc::find_tail(values, mc::TailSide::largest));
 }
 
 /// Sum over the pixels of a part of an image of the variance relative to squared radiance.
 struct PartVariance {
   mc::VarianceSum all, independent; ///< From the point sets, and from samples taken as independent.
+  mc::Extremes brightest;           ///< Contributions of the brightest sample of each pixel that has a variance.
   int pixels = 0;
 
-  RelativeError error() const {
+  /// Error of the part, in which samples of `sharing` pixels share paths.
+  RelativeError error(double sharing) const {
     if (all.value == 0) return {0, 0};
     double most = bound_of(all);
     if (std::isfinite(independent.value)) most = std::clamp(bound_of(independent), all.value, most);
+    most += sharing * bound_beyond(brightest);
     return {std::sqrt(all.value / pixels), std::sqrt(most / pixels)};
   }
 };
 
-// Mean of the 3x3 neighbourhood.
-Eigen::Array3d around(const Image& image, int x, int y) {
+// Mean of the 3x3 neighbourhood, or of its other pixels where there are any.
+Eigen::Array3d around(const Image& image, int x, int y, bool others = false) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   int n = 0;
   for (int j = std::max(y - 1, 0); j < std::min(y + 2, image.height); ++j)
     for (int i = std::max(x - 1, 0); i < std::min(x + 2, image.width); ++i) {
+      if (others && i == x && j == y) continue;
       sum += image.at(i, j).cast<double>();
       ++n;
     }
-  return sum / n;
+  return n > 0 ? Eigen::Array3d(sum / n) : image.at(x, y).cast<double>();
 }
 
 } // namespace
@@ -178,6 +191,15 @@ Eigen::Array3d Film::variance_of_independent(int x, int y) const {
   return sum;
 }
 
+Eigen::Array3d Film::variance_of_brightest(int x, int y) const {
+  const SampleStatistics& samples = samples_[sample_index(x, y)];
+  const Eigen::Array3d off = (samples.channel_largest - samples.channel_means).cast<double>();
+  const Eigen::Array3d own =
+      (off / std::max(double(samples.count), 1.0)).square() / (options_.splat ? options_.splat->noise_area() : 1);
+  if (light_.empty()) return own;
+  return own.max((light_sums_[index(x, y)].channel_largest.cast<double>() / light_count()).square());
+}
+
 PixelEstimate Film::estimate(int x, int y) const {
   const auto sets = static_cast<std::size_t>(sets_), first = index(x, y) * sets;
   PixelEstimate pixel;
@@ -230,12 +252,15 @@ RelativeErrors Film::relative_errors(const Image& image) const {
   for (int top = 0; top < height_; top += 16)
     for (int left = 0; left < width_; left += 16) {
       PartVariance block;
+      std::vector<double> brightest;
       for (int y = top; y < std::min(top + 16, height_); ++y)
         for (int x = left; x < std::min(left + 16, width_); ++x) {
           for (PartVariance* part : {&picture, &block}) ++part->pixels;
           const PixelEstimate pixel = estimate(x, y);
           if (!(pixel.variance > 0).any()) continue;
           const Eigen::Array3d unit = around(image, x, y).max(mean / 2).square();
+          const Eigen::Array3d others = around(image, x, y, true).max(mean / 2).square();
+          brightest.push_back((variance_of_brightest(x, y) / others).mean()); // not relative to itself
           const double relative = (pixel.variance / unit).mean();
           const Eigen::Array3d of_samples = variance_of_independent(x, y) + pixel.light_variance;
           const double relative_of_samples = (of_samples / unit).mean(), dof = effective_sample_count(x, y);
@@ -244,11 +269,12 @@ RelativeErrors Film::relative_errors(const Image& image) const {
             part->independent.add(relative_of_samples, dof, noise_area());
           }
         }
-      const RelativeError error = block.error();
+      for (PartVariance* part : {&picture, &block}) part->brightest.add(brightest);
+      const RelativeError error = block.error(options_.noise_area);
       errors.worst_block = {std::max(errors.worst_block.value, error.value),
                             std::max(errors.worst_block.bound, error.bound)};
     }
-  errors.image = picture.error();
+  errors.image = picture.error(options_.noise_area);
   return with_few_light_paths(errors, image);
 }
 

@@ -57,7 +57,8 @@ struct PixelEstimate {
 /// Mean relative standard error of pixels, with an upper bound of 95 % confidence. The estimate itself is uncertain: a
 /// few pixels may contribute most of the noise, and each estimates its variance from two point sets. A second bound
 /// uses the samples as if independent, with SampleStatistics::effective_sample_count as degrees of freedom. The smaller
-/// bound counts. Pixels that share noise count for one.
+/// bound counts. Pixels that share noise count for one. Rare samples brighter than any so far may add to the variance:
+/// the bound includes what a generalised Pareto tail of the squared deviations leaves to them (mc::excess_beyond).
 struct RelativeError {
   double value = mc::infinity<double>, ///< The estimate.
       bound = mc::infinity<double>;    ///< Upper bound with 95 % confidence.
@@ -193,6 +194,9 @@ class Film {
 
   // Variance of a pixel if all samples were independent, without light paths.
   Eigen::Array3d variance_of_independent(int x, int y) const;
+
+  // Contribution of a pixel's brightest sample to the sum of the variances of all pixels.
+  Eigen::Array3d variance_of_brightest(int x, int y) const;
 
   // Sum of a point set of a pixel. The pixel's sets start at `first`.
   Eigen::Array3d set_sum(std::size_t first, std::size_t set) const;

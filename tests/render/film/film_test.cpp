@@ -227,6 +227,39 @@ TEST(Film, ErrorBoundCoversVarianceUncertainty) {
   EXPECT_EQ(Film(1, 1, 2).relative_errors().image.bound, mc::infinity<double>);
 }
 
+// Samples have a Pareto distribution of index 3.5: most pictures lack the samples that carry much of the variance. The
+// bound allows for them.
+TEST(Film, ErrorBoundCoversBrighterSamples) {
+  mc::Pcg random(7);
+  constexpr int pictures = 100, side = 32, sets = 2, points = 16;
+  constexpr double index = 3.5, mean = index / (index - 1);
+  constexpr double variance = index / (mc::sqr(index - 1) * (index - 2));
+  const double error = std::sqrt(variance / (sets * points)) / mean;
+  int held = 0, below = 0;
+  for (int picture = 0; picture < pictures; ++picture) {
+    Film film(side, side, sets, {.independent_samples = true});
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        SampleSums samples;
+        for (int set = 0; set < sets; ++set) {
+          Eigen::Array3d sum = Eigen::Array3d::Zero();
+          for (int i = 0; i < points; ++i) {
+            const Eigen::Array3d sample = grey(std::pow(1 - random.uniform<double>(), -1 / index));
+            samples.add(sample);
+            sum += sample;
+          }
+          film.add(x, y, set, sum, points);
+        }
+        film.record_samples(x, y, samples, 1);
+      }
+    const RelativeError stated = film.relative_errors().image;
+    held += stated.bound >= error;
+    below += stated.value < error;
+  }
+  EXPECT_GE(held, 90); // 95 are promised
+  EXPECT_GE(below, 60);
+}
+
 TEST(Film, CountsOutlierDominatedPixels) {
   Film film(4, 1, 1);
   const auto note = [&](int x, const std::vector<double>& luminances) {

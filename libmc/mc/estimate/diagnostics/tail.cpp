@@ -93,4 +93,12 @@ Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o) {
   return find_tail(values, e.count(), o);
 }
 
+double excess_beyond(const Tail& tail, double cap, const TailOptions& o) {
+  const auto beyond = [&](const TailFit& fit) {
+    const double shape = std::clamp(upper_shape(fit, o), 0.0, o.max_shape);
+    return fit.largest_excess > 0 ? std::min(fit.largest_excess, cap) * (shape / (1 - shape)) : 0.0;
+  };
+  return std::max(beyond(tail.fit), beyond(tail.deep));
+}
+
 } // namespace mc

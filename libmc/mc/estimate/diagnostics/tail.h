@@ -4,6 +4,7 @@
 #include <mc/estimate/diagnostics/extremes.h>
 
 #include <cstddef>
+#include <limits>
 #include <span>
 
 namespace mc {
@@ -24,12 +25,13 @@ TailFit fit_tail(std::span<const double> descending);
 /// Which values form a tail.
 enum class TailSide { smallest, largest };
 
-/// Numbers of values to which a tail is fitted, and the width of the intervals of its shape.
+/// Numbers of values to which a tail is fitted, and the limits of its shape.
 struct TailOptions {
   double share = 0.025;         ///< Share of all values to which the tail is fitted, between ...
   std::size_t least = 16,       ///< ... this number
       most = 250;               ///< ... and this one.
   double shape_deviation = 1.5; ///< Standard deviation of a shape of 1/2, times the root of the number of values.
+  double max_shape = 0.9;       ///< Largest shape in excess_beyond(): the mean diverges at 1.
 };
 
 /// A tail at three thresholds. A power law has the same shape at all of them; the flank of a peak has not.
@@ -46,5 +48,14 @@ double upper_shape(const TailFit& fit, const TailOptions& o = {});
 Tail find_tail(std::span<const double> descending, std::size_t count, const TailOptions& o = {});
 /// Fits one tail of the values.
 Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o = {});
+
+/// Expected contribution to the sum of values by unsampled ones, if these exceed the largest once in as many values.
+///   assumes : The excesses of the largest values over a threshold follow a generalised Pareto distribution of shape
+///             xi [Pickands75].
+///   formula : Y xi / (1 - xi) with the largest excess Y, and for xi the upper end of its one-sigma interval, at most
+///             `max_shape`. Bounded tails get 0. The larger result of the two fits: the tail of a sum may begin above
+///             its smooth part.
+///   cap     : Upper bound of Y.
+double excess_beyond(const Tail& tail, double cap = std::numeric_limits<double>::infinity(), const TailOptions& o = {});
 
 } // namespace mc

@@ -41,9 +41,7 @@ TailFindings tails_of(const SampledValues& values, double cap, const Tuning& t) 
   for (std::size_t side = 0; side < 2; ++side) {
     const auto end = static_cast<TailSide>(side);
     const auto contribution = [&](const Tail& tail, double weight) {
-      // The tail of a sum may begin above its smooth part.
-      return weight * std::max(tail_contribution(tail.fit, count, cap / weight, t),
-                               tail_contribution(tail.deep, count, cap / weight, t));
+      return weight * tail_contribution(tail, count, cap / weight, t);
     };
     const Tail tail = find_tail(values.averaged, end, t.tail);
     findings.contribution[side] = contribution(tail, 1);

@@ -107,4 +107,29 @@ TEST(UpperShape, LiesAboveByItsDeviation) {
   EXPECT_DOUBLE_EQ(mc::upper_shape(fit), 0.5);
 }
 
+// The largest N values of a Pareto distribution are near (i / N)^-xi, and those beyond the first add
+// N int_0^(1/N) (p^-xi - N^xi) dp = N^xi xi / (1 - xi) to their sum.
+TEST(ExcessBeyond, OfAParetoDistribution) {
+  for (const double shape : {0.2, 0.5, 0.7}) {
+    std::vector<double> values;
+    for (int i = 1; i <= 4000; ++i) values.push_back(std::pow(i / 4000.0, -shape));
+    mc::Extremes e;
+    e.add(values);
+    const mc::Tail tail = mc::find_tail(e, mc::TailSide::largest);
+    const double expected = std::pow(4000.0, shape) * shape / (1 - shape), found = mc::excess_beyond(tail);
+    EXPECT_GE(found, expected) << shape; // the shape is the upper end of its interval
+    EXPECT_LE(found, 4 * expected) << shape;
+    EXPECT_LE(mc::excess_beyond(tail, mc::infinity<double>, {.max_shape = 0.5}), tail.fit.largest_excess);
+  }
+}
+
+TEST(ExcessBeyond, OfABoundedTailIsZero) {
+  std::vector<double> values;
+  for (int i = 0; i < 4000; ++i) values.push_back(i);
+  mc::Extremes e;
+  e.add(values);
+  EXPECT_EQ(mc::excess_beyond(mc::find_tail(e, mc::TailSide::largest)), 0);
+  EXPECT_EQ(mc::excess_beyond({}), 0);
+}
+
 } // namespace

@@ -10,15 +10,10 @@
 
 namespace mc::detail {
 
-/// Expected contribution to the mean of values beyond the largest of `count` values, if they exceed it with probability
-/// 1 / count.
-///   assumes : The excesses of the largest values over a threshold follow a generalised Pareto distribution of shape
-///             xi [Pickands75].
-///   formula : Y xi / (1 - xi) / N with the largest excess Y of N values, and for xi the upper end of its one-sigma
-///             interval. Bounded tails get nothing.
-///   cap     : Upper bound of Y / N. Where replicates of n points differ by less than Y / n, their points resolve the
-///             tail.
-double tail_contribution(const TailFit& tail, double count, double cap, const Tuning& t = default_tuning);
+/// Expected contribution to the mean of `count` values by unsampled ones beyond the largest: excess_beyond() / count.
+///   cap : Upper bound of Y / N, for the largest excess Y of N values. Where replicates of n points differ by less than
+///         Y / n, their points resolve the tail.
+double tail_contribution(const Tail& tail, double count, double cap, const Tuning& t = default_tuning);
 
 /// Contribution at the last of several lengths, averaged over the last `pooled_lengths`.
 ///   assumes : With a tail of shape xi contributions fall with the number of points n like n^-(1 - xi).

@@ -21,7 +21,6 @@ struct Tuning {
   // Tail.
   TailOptions tail = {};  ///< Fit of the tail.
   double tail_length = 1; ///< Share of the extension.
-  double max_shape = 0.9; ///< Largest shape that the extension uses: it diverges at 1.
   // Diagnostics.
   /// Shape above which the variance is called infinite: 1/2 and the deviation of a shape fitted to 62 values.
   double infinite_variance = 0.7;

@@ -10,23 +10,23 @@ namespace {
 using mc::detail::tail_contribution;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-mc::TailFit fit(double shape, double largest) {
-  mc::TailFit f;
-  f.shape = shape;
-  f.largest_excess = largest;
-  f.values = 225; // a margin of .1
-  return f;
+mc::Tail tail(double shape, double largest) {
+  mc::Tail t;
+  t.fit.shape = shape;
+  t.fit.largest_excess = largest;
+  t.fit.values = 225; // a margin of .1
+  return t;
 }
 
 // Beyond Y a Pareto tail has the mean excess Y xi / (1 - xi).
 TEST(TailExtension, IsTheMeanExcessBeyondTheLargestValue) {
-  EXPECT_NEAR(tail_contribution(fit(0.4, 300), 1000, infinity), 0.3, 1e-12);
-  EXPECT_NEAR(tail_contribution(fit(0.4, 300), 1000, 0.1), 0.1, 1e-12); // the replicates differ by less
-  EXPECT_EQ(tail_contribution(fit(-0.5, 300), 1000, infinity), 0);
+  EXPECT_NEAR(tail_contribution(tail(0.4, 300), 1000, infinity), 0.3, 1e-12);
+  EXPECT_NEAR(tail_contribution(tail(0.4, 300), 1000, 0.1), 0.1, 1e-12); // the replicates differ by less
+  EXPECT_EQ(tail_contribution(tail(-0.5, 300), 1000, infinity), 0);
   EXPECT_EQ(tail_contribution({}, 1000, infinity), 0);
 }
 
-TEST(TailExtension, ShapeIsCapped) { EXPECT_NEAR(tail_contribution(fit(3, 1), 1, infinity), 9, 1e-12); }
+TEST(TailExtension, ShapeIsCapped) { EXPECT_NEAR(tail_contribution(tail(3, 1), 1, infinity), 9, 1e-12); }
 
 TEST(TailExtension, ContributionsArePooled) {
   const std::vector<double> points = {64, 128, 256, 512};
