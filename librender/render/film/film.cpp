@@ -261,12 +261,13 @@ RelativeErrors Film::relative_errors(const Image& image) const {
           const Eigen::Array3d unit = around(image, x, y).max(mean / 2).square();
           const Eigen::Array3d others = around(image, x, y, true).max(mean / 2).square();
           brightest.push_back((variance_of_brightest(x, y) / others).mean()); // not relative to itself
-          const double relative = (pixel.variance / unit).mean();
-          const Eigen::Array3d of_samples = variance_of_independent(x, y) + pixel.light_variance;
-          const double relative_of_samples = (of_samples / unit).mean(), dof = effective_sample_count(x, y);
+          const double relative = (pixel.variance / unit).mean(), light_variance = (pixel.light_variance / unit).mean();
+          const double of_samples = (variance_of_independent(x, y) / unit).mean(),
+                       dof = samples_[sample_index(x, y)].effective_sample_count();
           for (PartVariance* part : {&picture, &block}) {
             part->all.add(relative, pixel.sets - 1, noise_area());
-            part->independent.add(relative_of_samples, dof, noise_area());
+            part->independent.add(of_samples, dof, noise_area());
+            part->independent.add(light_variance, pixel.sets - 1, noise_area());
           }
         }
       for (PartVariance* part : {&picture, &block}) part->brightest.add(brightest);

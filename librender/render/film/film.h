@@ -54,11 +54,11 @@ struct PixelEstimate {
   int sets = 0; ///< Number of point sets with samples; below 2 the variance is unknown.
 };
 
-/// Mean relative standard error of pixels, with an upper bound of 95 % confidence. The estimate itself is uncertain: a
-/// few pixels may contribute most of the noise, and each estimates its variance from two point sets. A second bound
-/// uses the samples as if independent, with SampleStatistics::effective_sample_count as degrees of freedom. The smaller
-/// bound counts. Pixels that share noise count for one. Rare samples brighter than any so far may add to the variance:
-/// the bound includes what a generalised Pareto tail of the squared deviations leaves to them (mc::excess_beyond).
+/// Relative standard error, root mean square over pixels, with an upper bound of 95 % confidence. The estimate is
+/// uncertain: a few pixels may contribute most of the noise, and each estimates its variance from few point sets. A
+/// second bound uses the samples as if independent, with SampleStatistics::effective_sample_count as degrees of
+/// freedom. The smaller bound counts. Pixels that share noise count for one. To this is added what samples brighter
+/// than any so far may contribute, from the tail of the brightest samples of the pixels (mc::excess_beyond).
 struct RelativeError {
   double value = mc::infinity<double>, ///< The estimate.
       bound = mc::infinity<double>;    ///< Upper bound with 95 % confidence.
@@ -170,7 +170,7 @@ class Film {
   Image image() const;
 
   /// Mean relative standard errors: the root of the mean of variance / radiance^2 over pixels and channels. The
-  /// radiance is the mean over the 3x3 neighbourhood, so that a rare bright sample is not divided by itself. It is at
+  /// radiance is the mean over the 3x3 neighbourhood, so that a rare bright sample weighs little in it. It is at
   /// least half of the image's mean. Infinite while the variance is unknown in some pixel.
   ///   few light paths : the errors are infinite if more than half of the image's radiance are light path contributions
   ///                     that each dominate their pixel: other pixels have none by chance. If no contribution reaches

@@ -38,7 +38,7 @@ struct TailOptions {
 struct Tail {
   TailFit fit,      ///< Fit to many values.
       deep;         ///< Fit to a quarter of them; empty if these are too few.
-  double shape = 0; ///< Shape of `fit`, or the least upper end of an interval of the other shapes if that is less.
+  double shape = 0; ///< Shape of `fit`, within the intervals of the shapes at the other thresholds.
 };
 
 /// Upper end of the one-sigma interval of a shape.
@@ -49,13 +49,14 @@ Tail find_tail(std::span<const double> descending, std::size_t count, const Tail
 /// Fits one tail of the values.
 Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o = {});
 
-/// Expected contribution to the sum of values by unsampled ones, if these exceed the largest once in as many values.
+/// Expected sum of the excesses over the largest value, of values beyond it, if one of them is expected among as many
+/// values as were sampled.
 ///   assumes : The excesses of the largest values over a threshold follow a generalised Pareto distribution of shape
 ///             xi [Pickands75].
 ///   formula : Y xi / (1 - xi) with the largest excess Y, and for xi the upper end of its one-sigma interval, at most
-///             `max_shape`. Bounded tails get 0. The larger result of the two fits: the tail of a sum may begin above
-///             its smooth part.
-///   cap     : Upper bound of Y.
+///             `max_shape`. Bounded tails get 0. The larger result of `fit` and `deep` counts: only the largest values
+///             of a smooth function plus a singularity belong to its tail.
+///   cap     : Upper bound of Y, if one is known.
 double excess_beyond(const Tail& tail, double cap = std::numeric_limits<double>::infinity(), const TailOptions& o = {});
 
 } // namespace mc
