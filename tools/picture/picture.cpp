@@ -100,9 +100,9 @@ std::string render_summary(const std::string& file, const render::RenderResult& 
   if (r.outlier_dominated > 0)
     text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.outlier_dominated);
   text += "\n";
-  const double percent = 100 * target_error.value_or(0);
   if (r.out_of_time)
-    text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)", percent),
+    text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)",
+                                100 * target_error.value_or(0)),
                     columns, indent);
   return text;
 }

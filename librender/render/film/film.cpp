@@ -48,10 +48,9 @@ double bound_of(const mc::VarianceSum& sum) {
   return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(confidence, dof) : sum.value;
 }
 
-// Upper bound of what unsampled values beyond the largest add to the sum: no value exceeds the largest with probability
-// alpha if -log(alpha) are expected to.
+// Upper bound of what unsampled values beyond the largest add to the sum.
 double bound_beyond(const mc::Extremes& values) {
-  return -std::log(1 - confidence) * mc::excess_beyond(mc::find_tail(values, mc::TailSide::largest));
+  return mc::tail_extension(1 - confidence) * mc::excess_beyond(mc::find_tail(values, mc::TailSide::largest));
 }
 
 /// Sum over the pixels of a part of an image of the variance relative to squared radiance.

@@ -3,6 +3,7 @@
 
 #include <mc/estimate/diagnostics/extremes.h>
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -58,5 +59,9 @@ Tail find_tail(const Extremes& e, TailSide side, const TailOptions& o = {});
 ///             of a smooth function plus a singularity belong to its tail.
 ///   cap     : Upper bound of Y, if one is known.
 double excess_beyond(const Tail& tail, double cap = std::numeric_limits<double>::infinity(), const TailOptions& o = {});
+
+/// Length by which a bound with error probability alpha is extended, in units of excess_beyond(): all N values are
+/// below Y with probability alpha if Y is exceeded with probability -log(alpha) / N.
+inline double tail_extension(double alpha) { return -std::log(alpha); }
 
 } // namespace mc

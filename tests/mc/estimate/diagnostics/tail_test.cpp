@@ -132,4 +132,10 @@ TEST(ExcessBeyond, OfABoundedTailIsZero) {
   EXPECT_EQ(mc::excess_beyond({}), 0);
 }
 
+// All of N values lie below a value that is exceeded with probability c / N with probability exp(-c).
+TEST(TailExtension, LengthFollowsTheConfidence) {
+  EXPECT_NEAR(mc::tail_extension(0.025), 3.6889, 1e-4);
+  EXPECT_NEAR(std::pow(1 - 3.6889 / 1e6, 1e6), 0.025, 1e-5);
+}
+
 } // namespace

@@ -1,5 +1,8 @@
 #include <mc/estimate/integrate/corrections/tail_extension.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace mc::detail {
 
 double tail_contribution(const Tail& tail, double count, double cap, const Tuning& t) {

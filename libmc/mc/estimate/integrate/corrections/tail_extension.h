@@ -4,8 +4,6 @@
 #include <mc/estimate/diagnostics/tail.h>
 #include <mc/estimate/integrate/corrections/tuning.h>
 
-#include <algorithm>
-#include <cmath>
 #include <span>
 
 namespace mc::detail {
@@ -21,9 +19,5 @@ double tail_contribution(const Tail& tail, double count, double cap, const Tunin
 ///   contributions : at the lengths `points`, which double; both have the same size.
 double pooled_contribution(std::span<const double> points, std::span<const double> contributions, double shape,
                            const Tuning& t = default_tuning);
-
-/// Length by which an interval with error probability alpha on either side is extended, in units of the contribution:
-/// all N values are below Y with probability alpha if Y is exceeded with probability -log(alpha) / N.
-inline double tail_extension(double alpha) { return -std::log(alpha); }
 
 } // namespace mc::detail

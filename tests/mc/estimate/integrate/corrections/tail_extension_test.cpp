@@ -38,10 +38,4 @@ TEST(TailExtension, ContributionsArePooled) {
   EXPECT_EQ(mc::detail::pooled_contribution(points, std::vector<double>(4, 0.0), 0.7), 0);
 }
 
-// All of N values lie below a value that is exceeded with probability c / N with probability exp(-c).
-TEST(TailExtension, LengthFollowsTheConfidence) {
-  EXPECT_NEAR(mc::detail::tail_extension(0.025), 3.6889, 1e-4);
-  EXPECT_NEAR(std::pow(1 - 3.6889 / 1e6, 1e6), 0.025, 1e-5);
-}
-
 } // namespace
