@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Shares of renders with target_error = .05 whose error, or standard error, is larger. PYTHONPATH: libmc."""
+"""Shares of renders whose error, or standard error, exceeds the target: target_error.py RENDERS TARGET SCENE..."""
 
 import sys
 
@@ -7,7 +7,8 @@ import numpy as np
 
 import libmc
 
-SIZE, TARGET = (16, 16), 0.05
+SIZE = (16, 16)
+renders, target = int(sys.argv[1]), float(sys.argv[2])
 
 
 def errors(picture, reference):
@@ -18,18 +19,16 @@ def errors(picture, reference):
 
 
 print("scene, renders, larger error, largest, larger standard error, samples per pixel, error of the reference")
-for scene in sys.argv[2:]:
+for scene in sys.argv[3:]:
     halves = [libmc.render(scene, size=SIZE, spp=1 << 15, seed=seed).radiance for seed in (1, 2)]
     reference = (halves[0] + halves[1]) / 2
     noise = errors(halves[0], reference)  # half of the difference: the error of their mean
-    pictures = [
-        libmc.render(scene, size=SIZE, target_error=TARGET, seed=100 + i, threads=1) for i in range(int(sys.argv[1]))
-    ]
+    pictures = [libmc.render(scene, size=SIZE, target_error=target, seed=100 + i, threads=1) for i in range(renders)]
     of = np.array([errors(p.radiance, reference) for p in pictures])
     samples = np.array([p.spp for p in pictures])
     standard = np.sqrt(np.mean(of**2 * samples) / samples)  # of pictures with as many samples
     print(
-        f"{scene}, {len(of)}, {np.mean(of > TARGET):.3f}, {of.max():.3f}, {np.mean(standard > TARGET):.3f}, "
+        f"{scene}, {len(of)}, {np.mean(of > target):.3f}, {of.max():.3f}, {np.mean(standard > target):.3f}, "
         f"{np.median(samples):.0f}, {noise:.4f}",
         flush=True,
     )
