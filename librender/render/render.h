@@ -14,21 +14,21 @@ namespace render {
 
 /// Progress of a render.
 struct Progress {
-  double fraction = 0;          ///< Share of the work that is done, in [0,1].
-  std::uint64_t samples = 0,    ///< Number of samples so far.
-      rays = 0;                 ///< Number of rays so far.
-  double seconds = 0;           ///< Time since the start [s].
-  double relative_error = 0;    ///< Error in the scope of the options; see Film. Infinite while unknown.
-  double outlier_dominated = 0; ///< Share of outlier-dominated pixels at the last estimate of the error.
+  double fraction = 0;       ///< Share of the work that is done, in [0,1].
+  std::uint64_t samples = 0, ///< Number of samples so far.
+      rays = 0;              ///< Number of rays so far.
+  double seconds = 0;        ///< Time since the start [s].
+  RelativeError error;       ///< Error in the scope of the options. Infinite while unknown.
   /// Image of the samples so far. Call it during the progress only; it takes time, and other threads may wait.
   std::function<Image()> image = {};
 };
 
-/// Largest share of outlier-dominated pixels with which an image may reach a target error.
-inline constexpr double max_outlier_dominated = 0.05;
-
 /// Largest number of branches of a path.
 inline constexpr int max_branches = 1024;
+
+/// Least number of samples of an image with a target error. A kind of path with a probability of 3e-5 or more is met by
+/// one of them with a probability of 95 %; no error bar covers light that no path met.
+inline constexpr double min_target_samples = 1e5;
 
 /// Options of a render.
 struct RenderOptions {
@@ -36,9 +36,9 @@ struct RenderOptions {
       height = 256; ///< Height of the full image [pixels].
   /// Part to render; none: all. Without adaptive sampling its pixels have the same bits as in the full image.
   std::optional<Crop> crop;
-  int spp = 64;                       ///< Samples per pixel; ignored if `seconds` or `target_error` is given.
-  std::optional<double> seconds;      ///< Wall-clock limit [s].
-  std::optional<double> target_error; ///< Upper limit of RelativeError::bound, together with max_outlier_dominated.
+  int spp = 64;                               ///< Samples per pixel; ignored if `seconds` or `target_error` is given.
+  std::optional<double> seconds;              ///< Wall-clock limit [s].
+  std::optional<double> target_error;         ///< Upper limit of RelativeError::bound; see min_target_samples.
   ErrorScope error_scope = ErrorScope::image; ///< Pixels over which the error is averaged.
   bool adaptive = true; ///< Whether to sample adaptively, after the first 16 samples of every pixel.
   Strategy strategy = strategy_from("mis+lt"); ///< How paths find light.
@@ -75,12 +75,10 @@ struct RenderResult {
   double relative_error = 0;    ///< RelativeError::value of the image.
   double worst_error = 0;       ///< RelativeError::value of the worst block.
   double outlier_dominated = 0; ///< Share of pixels with an unreliable error bar; see Film::outlier_dominated.
-  /// Samples per pixel at which the target error was reached with too many outlier-dominated pixels; 0: never.
-  double unreliable_target_spp = 0;
-  std::uint64_t invalid = 0;   ///< Number of samples that were not finite; the image leaves them out.
-  InvalidSample first_invalid; ///< The first of them.
-  bool partial = false;        ///< Whether the render was cancelled before the end.
-  bool out_of_time = false;    ///< Whether the time ended before the target error was reached.
+  std::uint64_t invalid = 0;    ///< Number of samples that were not finite; the image leaves them out.
+  InvalidSample first_invalid;  ///< The first of them.
+  bool partial = false;         ///< Whether the render was cancelled before the end.
+  bool out_of_time = false;     ///< Whether the time ended before the target error was reached.
   /// Number of rows without samples after cancellation in the first round; they repeat the nearest rendered row.
   int missing_rows = 0;
 };

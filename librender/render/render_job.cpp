@@ -122,9 +122,9 @@ double RenderJob::wanted() const {
 }
 
 double RenderJob::wanted_by_error() const {
+  const double pixels = double(film_.width()) * double(film_.height());
   const double by_error = mean_ * mc::sqr(error_.bound / *options_.target_error);
-  const bool is_sure = mean_ >= pilot_samples && outlier_dominated_ <= max_outlier_dominated;
-  return is_sure ? by_error : std::max(by_error, 2 * mean_);
+  return std::max({by_error, pilot_samples, min_target_samples / pixels});
 }
 
 // Doubled, but at most `wanted`. If `wanted` is an estimate, the pass covers about three quarters of the rest.
@@ -300,24 +300,18 @@ void RenderJob::end_pass() {
   if (options_.target_error || options_.progress) estimate_error();
 }
 
-void RenderJob::estimate_error() {
-  error_ = film_.relative_errors().of(options_.error_scope);
-  outlier_dominated_ = film_.outlier_dominated();
-  const bool is_there = options_.target_error && error_.value <= *options_.target_error;
-  if (is_there && mean_ >= pilot_samples && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0)
-    unreliable_target_spp_ = mean_;
-}
+void RenderJob::estimate_error() { error_ = film_.relative_errors().of(options_.error_scope); }
 
 void RenderJob::report_progress() const {
   if (!options_.progress) return;
   const double share = double(pass_.pixels_done) / double(pass_.pixel_units);
   const double fraction =
       options_.seconds ? elapsed() / *options_.seconds : (mean_ + share * (pass_.mean - mean_)) / pass_.wanted;
-  options_.progress({std::min(fraction, 1.0), total_.samples + pass_.stats.samples, total_.rays, elapsed(),
-                     error_.value, outlier_dominated_, [this] {
-                       int missing_rows = 0;
-                       return image_so_far(missing_rows);
-                     }});
+  options_.progress(
+      {std::min(fraction, 1.0), total_.samples + pass_.stats.samples, total_.rays, elapsed(), error_, [this] {
+         int missing_rows = 0;
+         return image_so_far(missing_rows);
+       }});
 }
 
 // Without the rows of a pass with splats that are not complete. Within the first pass, missing rows repeat others;
@@ -348,7 +342,6 @@ RenderResult RenderJob::result(bool is_done) {
   result.relative_error = errors.image.value;
   result.worst_error = errors.worst_block.value;
   result.outlier_dominated = film_.outlier_dominated();
-  result.unreliable_target_spp = unreliable_target_spp_;
   result.invalid = total_.invalid;
   result.first_invalid = total_.first_invalid;
   result.out_of_time = options_.target_error && !result.partial && mean_ < wanted_by_error();

@@ -46,8 +46,8 @@ class RenderJob {
   template <class Archive> void archive(Archive& a) {
     if constexpr (!Archive::is_reader) a.reserve(archive_size());
     double seconds = elapsed();
-    a(film_, taken_, next_taken_, plan_, renderers_, pilot_mean_, mean_, total_, error_.value, error_.bound,
-      outlier_dominated_, unreliable_target_spp_, stage_, pass_, units_, light_done_, seconds, cpu_seconds_);
+    a(film_, taken_, next_taken_, plan_, renderers_, pilot_mean_, mean_, total_, error_.value, error_.bound, stage_,
+      pass_, units_, light_done_, seconds, cpu_seconds_);
     bool has_window = window_.has_value();
     a(has_window);
     if (has_window && !window_) window_ = new_window();
@@ -149,9 +149,7 @@ class RenderJob {
   double mean_ = 0;              ///< Samples per pixel after the finished passes.
   std::uint64_t light_done_ = 0; ///< Number of light paths of the finished passes.
   RenderStats total_;
-  RelativeError error_;              ///< Error after the last pass.
-  double outlier_dominated_ = 0;     ///< Outlier-dominated pixels after the last pass.
-  double unreliable_target_spp_ = 0; ///< See RenderResult.
+  RelativeError error_; ///< Error after the last pass.
   Stage stage_ = Stage::none;
   Pass pass_;
   std::uint64_t units_ = 0; ///< Number of units of the stage.

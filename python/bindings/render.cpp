@@ -175,7 +175,7 @@ Picture render_scene(const std::string& scene, const RenderSettings& s, const py
   if (!progress.is_none())
     options.progress = [&](const render::Progress& p) {
       const py::gil_scoped_acquire lock;
-      progress(p.fraction, p.samples, p.seconds, p.relative_error);
+      progress(p.fraction, p.samples, p.seconds, p.error.value);
     };
   render::RenderResult result;
   const bool interrupted = run_interruptible([&] { result = render::render(read.scene, options); }, cancel);

@@ -139,15 +139,11 @@ render::RenderOptions settings_of(const RenderCommandOptions& options, const ren
 }
 
 // Parts of a progress line, the most important one first.
-std::string progress_text(const render::Progress& p, const std::optional<double>& target_error) {
+std::string progress_text(const render::Progress& p, bool has_target) {
   const std::string rate = format_count(double(p.samples) / p.seconds) + "samples/s";
-  if (!std::isfinite(p.relative_error)) return rate;
-  const bool goes_on =
-      target_error && p.relative_error <= *target_error && p.outlier_dominated > render::max_outlier_dominated;
-  if (goes_on)
-    return fmt::format("error reached, {:.1f} % undecided: on to {:.0f} %", 100 * p.outlier_dominated,
-                       100 * render::max_outlier_dominated);
-  return fmt::format("error {:.2f} %  {:.1f} % undecided  {}", 100 * p.relative_error, 100 * p.outlier_dominated, rate);
+  if (!std::isfinite(p.error.value)) return rate;
+  const std::string bound = has_target ? fmt::format("  at most {:.2f} %", 100 * p.error.bound) : "";
+  return fmt::format("error {:.2f} %{}  {}", 100 * p.error.value, bound, rate);
 }
 
 // Throws Error where the pixels, and `more` bytes, need more memory than is allowed.
@@ -348,7 +344,7 @@ int run_render(const RenderCommandOptions& options) {
     report.emplace(options.report, std::filesystem::path(file).filename().string(), options.command, part);
   if (progress.is_visible() || report)
     settings.progress = [&](const render::Progress& p) {
-      if (progress.is_visible()) progress.show(p.fraction, progress_text(p, options.target_error));
+      if (progress.is_visible()) progress.show(p.fraction, progress_text(p, options.target_error.has_value()));
       if (report) report->show(p);
     };
 

@@ -145,9 +145,9 @@ std::vector<HelpSection> render_sections() {
            {"",
             "The error of the picture is the root mean square of the pixels' standard errors, each relative to the "
             "radiance around the pixel, at least half of the picture's mean. It is reached when an upper bound with "
-            "95 % confidence is below --target-error. Rendering goes on while one sample carries over half of the "
-            "variance in more than 5 % of the pixels: the error of such pixels is not known. Where --time ends "
-            "first, the picture is written, and the exit code is 0."},
+            "95 % confidence is below --target-error. The bound allows for brighter samples than any so far. A picture "
+            "takes at least 16 samples per pixel and 100,000 in all, so that rare bright light is met. Where --time "
+            "ends first, the picture is written, and the exit code is 0."},
        }},
   };
 }

@@ -100,14 +100,9 @@ std::string render_summary(const std::string& file, const render::RenderResult& 
   if (r.outlier_dominated > 0)
     text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.outlier_dominated);
   text += "\n";
-  const double percent = 100 * target_error.value_or(0);
-  if (r.unreliable_target_spp > 0)
-    text += wrapped(fmt::format("the error reached {:g} % with {:.4g} samples per pixel; rendering went on while one "
-                                "sample dominated over {:.0f} % of the pixels (--time bounds it)",
-                                percent, r.unreliable_target_spp, 100 * render::max_outlier_dominated),
-                    columns, indent);
-  else if (r.out_of_time)
-    text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)", percent),
+  if (r.out_of_time)
+    text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)",
+                                100 * target_error.value_or(0)),
                     columns, indent);
   return text;
 }

@@ -35,7 +35,7 @@ void RenderReport::show(const render::Progress& p) {
   progress_.text = fmt::format("{:.0f} % in {}{}", 100 * p.fraction, format_seconds(p.seconds),
                                std::isfinite(left) ? ", about " + format_seconds(left) + " remain" : "");
   try {
-    write(p.image(), p.seconds, p.relative_error);
+    write(p.image(), p.seconds, p.error.value);
   } catch (const mc::Error&) {
     // The next page may be possible; finish() reports what is not.
   }
