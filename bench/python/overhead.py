@@ -84,12 +84,12 @@ def warps(bench, only):
 def points():
     n, d = 1 << 16, 8
     ours, theirs = shortest(lambda: libmc.samplers.sobol(n, d, 1), lambda: qmc.Sobol(d, seed=1).random(n))
-    yield f"sobol({n}, {d}, seed)", "scipy.stats.qmc.Sobol, scrambled", ours / n * 1e9, theirs / n * 1e9
+    yield f"a point of `sobol({n}, {d}, seed)`", "`scipy.stats.qmc.Sobol`, scrambled", ours / n * 1e9, theirs / n * 1e9
     ours, theirs = shortest(lambda: libmc.samplers.halton(n, d, 1), lambda: qmc.Halton(d, seed=1).random(n))
-    yield f"halton({n}, {d}, seed)", "scipy.stats.qmc.Halton, scrambled", ours / n * 1e9, theirs / n * 1e9
+    yield f"a point of `halton({n}, {d}, seed)`", "`scipy.stats.qmc.Halton`, scrambled", ours / n * 1e9, theirs / n * 1e9
     p = libmc.samplers.sobol(4096, 4)
     ours, theirs = shortest(lambda: libmc.points.centered_discrepancy(p), lambda: qmc.discrepancy(p))
-    yield "centered_discrepancy, 4096 points", "scipy.stats.qmc.discrepancy", ours * 1e9, theirs * 1e9
+    yield "`centered_discrepancy` of 4096 points", "`scipy.stats.qmc.discrepancy`", ours * 1e9, theirs * 1e9
 
 
 def integrals(carlo):
@@ -106,7 +106,7 @@ def integrals(carlo):
             ours = min(ours, ns_of(lambda: libmc.integrate(f, [(0, 1), (-1, 2)], **options)) * N)
             subprocess.run(command, capture_output=True)
             theirs = min(theirs, json.load(open(file.name))["seconds"] * 1e9)
-    yield "integrate(numpy function), one thread", "carlo integrate, one thread, wall time", ours / n, theirs / n
+    yield "a call of `integrate` of a NumPy function", "`carlo integrate` of the expression, wall time", ours / n, theirs / n
 
 
 def main(bench, carlo, only=""):

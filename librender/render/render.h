@@ -26,8 +26,8 @@ struct Progress {
 /// Largest number of branches of a path.
 inline constexpr int max_branches = 1024;
 
-/// Least number of samples of an image with a target error. A kind of path with a probability of 3e-5 or more is met by
-/// one of them with a probability of 95 %; no error bar covers light that no path met.
+/// Least number of samples of an image with a target error: no error bar covers light that no path met. At least one
+/// path of a kind with a probability of 3e-5 is met with a probability of 95 %.
 inline constexpr double min_target_samples = 1e5;
 
 /// Options of a render.

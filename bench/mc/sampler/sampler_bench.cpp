@@ -9,6 +9,10 @@
 #include <mc/sampler/sobol.h>
 #include <mc/sampler/stratified.h>
 
+#ifdef BENCH_OPENQMC
+#include <oqmc/sobol.h>
+#endif
+
 namespace {
 
 // The first 65536 points in scattered order, as pixels and paths access them.
@@ -45,6 +49,18 @@ template <class S> void padded_4d(benchmark::State& state) {
 }
 BENCHMARK(padded_4d<float>)->Name("Sobol 4-D, padded, a number, float");
 BENCHMARK(padded_4d<double>)->Name("Sobol 4-D, padded, a number, double");
+#ifdef BENCH_OPENQMC
+void padded_4d_of_openqmc(benchmark::State& state) {
+  std::uint32_t i = 0;
+  for ([[maybe_unused]] const auto _ : state) {
+    float u[4];
+    oqmc::SobolSampler(0, 0, 0, static_cast<int>((i += 40503) & 0xffff), nullptr).newDomain(1).drawSample<4>(u);
+    benchmark::DoNotOptimize(u);
+  }
+  bench::set_counters(state, 4, 6);
+}
+BENCHMARK(padded_4d_of_openqmc)->Name("Sobol 4-D, padded, a number, float: OpenQMC");
+#endif
 void halton_numbers(benchmark::State& state) {
   std::uint32_t i = 0;
   const mc::Halton sampler(1);

@@ -43,9 +43,9 @@ std::string Integral::to_string() const {
                        calls, 3 / static_cast<double>(calls));
     break;
   case ErrorBar::undersampled:
-    text =
-        fmt::format("{:.10g}, error not known: a few of {} points hold most of the integral. More calls are needed{}",
-                    estimate.value, calls, tail_index < perhaps_infinite ? ", or the integral is infinite" : "");
+    text = fmt::format("{:.10g}, error not known: a few of {} points hold most of the integral. More calls are needed, "
+                       "or the integral is infinite",
+                       estimate.value, calls);
     break;
   case ErrorBar::too_few_points:
     text = fmt::format("{:.10g}, error not known: {} points are too few for so many dimensions. More calls are needed",

@@ -40,17 +40,17 @@ MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const E
   return all;
 }
 
-constexpr double confidence = 0.95;
+constexpr double bound_confidence = 0.95;
 
 // Upper bound of the sum of variances.
 double bound_of(const mc::VarianceSum& sum) {
   const double dof = sum.dof();
-  return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(confidence, dof) : sum.value;
+  return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(bound_confidence, dof) : sum.value;
 }
 
 // Upper bound of what unsampled values beyond the largest add to the sum.
 double bound_beyond(const mc::Extremes& values) {
-  return mc::tail_extension(1 - confidence) * mc::excess_beyond(mc::find_tail(values, mc::TailSide::largest));
+  return mc::tail_extension(1 - bound_confidence) * mc::excess_beyond(mc::find_tail(values, mc::TailSide::largest));
 }
 
 /// Sum over the pixels of a part of an image of the variance relative to squared radiance.
