@@ -26,11 +26,11 @@ TEST_F(RenderReportTest, KeepsAPageUntilTheEnd) {
     ++images;
     return grey();
   };
-  report.show({0.25, 1000, 5000, 30, 0.02, 0, image});
+  report.show({0.25, 1000, 5000, 30, {0.02, 0.03}, image});
   const std::string page = mc::read_file(path("page/index.html"));
   EXPECT_THAT(page, AllOf(HasSubstr("25 % in 30.0 s, about 1 min 30 s remain"), HasSubstr("[[30.0,0.02]]"),
                           HasSubstr("http-equiv=\"refresh\""), HasSubstr("\"x\":7")));
-  report.show({0.5, 2000, 10000, 60, 0.01, 0, image});
+  report.show({0.5, 2000, 10000, 60, {0.01, 0.02}, image});
   EXPECT_EQ(images, 1) << "within two seconds";
   render::RenderResult result;
   result.image = grey();
