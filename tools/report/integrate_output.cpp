@@ -115,7 +115,8 @@ std::string integrate_summary(const IntegrateResults& found) {
   std::string text;
   for (std::size_t i = 0; i < found.integrands.size(); ++i) {
     const mc::Integral& r = found.results.outputs[i];
-    text += fmt::format("{} = {}{}\n", found.integrands[i].title, r.to_string(), remedy(r.error_bar));
+    text += fmt::format("{}{} {}{}\n", found.integrands[i].title, r.may_diverge() ? ":" : " =", r.to_string(),
+                        remedy(r.error_bar));
   }
   text += calls_text(found);
   for (std::size_t i = 0; i < found.integrands.size(); ++i)

@@ -29,6 +29,10 @@ NotFinite::NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vec
                         bad_points, of_points, where)),
       bad(bad_points), points(of_points), u(std::move(point)) {}
 
+bool Integral::may_diverge() const {
+  return error_bar == ErrorBar::undersampled || error_bar == ErrorBar::not_integrable;
+}
+
 std::string Integral::to_string() const {
   std::string text;
   switch (error_bar) {
@@ -43,9 +47,10 @@ std::string Integral::to_string() const {
                        calls, 3 / static_cast<double>(calls));
     break;
   case ErrorBar::undersampled:
-    text = fmt::format("{:.10g}, error not known: a few of {} points hold most of the integral. More calls are needed, "
-                       "or the integral is infinite",
-                       estimate.value, calls);
+    text =
+        fmt::format("a few of {} points hold most of {:.4g}: the integral has a peak that few points met, or does not "
+                    "converge absolutely",
+                    calls, estimate.value);
     break;
   case ErrorBar::too_few_points:
     text = fmt::format("{:.10g}, error not known: {} points are too few for so many dimensions. More calls are needed",

@@ -139,6 +139,9 @@ struct Integral {
   /// Learned density, even if the estimate does not use it. Null if none was learned.
   std::shared_ptr<const AdaptedDensity> density = {};
 
+  /// Whether the integral may be infinite or converge only conditionally. Then to_string() does not begin with a value.
+  bool may_diverge() const;
+
   /// Text such as "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or the reason for a missing error bar.
   /// Adds a warning if the rounds disagree.
   std::string to_string() const;

@@ -319,4 +319,21 @@ TEST(Integrate, ZeroIntegral_AsksForAbsError) {
   EXPECT_EQ(support::run_carlo("integrate 'x^3+x' -d x=-1:1 --max-calls 20000 --abs-error 0.01").exit_code, 0);
 }
 
+// An integral of tail index 1 is on the border: the text says at least that it may be infinite.
+TEST(Integrate, DivergentIntegral_IsNamed) {
+  for (const std::string method : {"auto", "vegas", "rqmc"}) {
+    const auto text_of = [&](const std::string& integral) {
+      const auto r = support::run_carlo("integrate " + integral + " --max-calls 1e6 --method " + method);
+      EXPECT_EQ(r.exit_code, 1) << r.output;
+      return r.output;
+    };
+    EXPECT_THAT(text_of("'x^-2' -d x=0:1"),
+                testing::ContainsRegex("^x\\^-2: .*does not (seem to )?converge absolutely"));
+    for (const char* integral : {"'1/(1+x)' -d x=0:inf", "'sin(x)/x' -d x=0:inf"})
+      EXPECT_THAT(text_of(integral),
+                  testing::ContainsRegex("converge absolutely|looks infinite, and the integral may be"))
+          << method;
+  }
+}
+
 } // namespace
