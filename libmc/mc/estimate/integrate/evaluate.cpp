@@ -1,4 +1,5 @@
 #include <mc/core/error.h>
+#include <mc/estimate/integrate/axis_warp.h>
 #include <mc/estimate/integrate/evaluate.h>
 #include <mc/run/job.h>
 #include <mc/stats/scale.h>
@@ -22,26 +23,45 @@ constexpr double thread_start = 5e-4;           // seconds of work above which o
 constexpr double most_infinite = 1e-3;          // largest volume of infinite values; a larger one is no singularity
 constexpr double few_infinite = 8;              // points always allowed to be infinite
 
-// Points of a call with their weights: an average of f * factor - c * shift + c.
-struct WeightedPoints {
-  std::vector<double> raw, points, factors, shifts, scratch;
+// The seed of a set of scrambled points.
+std::optional<std::uint64_t> scrambling_seed(const PointSet& set) {
+  if (const auto* s = std::get_if<ScrambledSobol>(&set)) return s->seed;
+  if (const auto* s = std::get_if<InterlacedSobol>(&set)) return s->seed;
+  return {};
+}
 
-  WeightedPoints(std::size_t n, std::size_t d, bool weighted) : points(n * d), factors(n, 1.0), scratch(d) {
-    if (!weighted) return;
-    raw.resize(n * (d + 1));
-    shifts.resize(n);
+// Points of a call with their weights: an average of (f * factor - c * shift + c) * jacobian.
+struct WeightedPoints {
+  std::vector<double> raw, points, factors, shifts, jacobians, scratch;
+  std::optional<AxisWarp> warp;
+
+  WeightedPoints(const PointSet& set, std::size_t n, std::size_t d, const Proposal& proposal)
+      : points(n * d), factors(n, 1.0), scratch(d) {
+    if (proposal.density) {
+      raw.resize(n * (d + 1));
+      shifts.resize(n);
+    }
+    if (const auto seed = scrambling_seed(set); seed && proposal.warps_axes) {
+      jacobians.resize(n);
+      warp.emplace(*seed, proposal.density ? d + 1 : d);
+    }
   }
 
   void draw(const PointSet& set, std::uint64_t first, std::size_t n, std::size_t d, const Proposal& proposal) {
     const std::span<double> all(points.data(), n * d);
-    if (!proposal.density) return fill_points(set, first, static_cast<int>(d), all);
-    fill_points(set, first, static_cast<int>(d + 1), {raw.data(), n * (d + 1)});
+    if (!proposal.density) return fill(set, first, n, all);
+    fill(set, first, n, {raw.data(), n * (d + 1)});
     for (std::size_t i = 0; i < n; ++i) {
       const double selector = raw[i * (d + 1)];
       const std::span<double> x = all.subspan(i * d, d);
       std::copy_n(raw.begin() + static_cast<std::ptrdiff_t>(i * (d + 1) + 1), d, x.begin());
       weigh(i, x, selector < Proposal::uniform_share, *proposal.density);
     }
+  }
+
+  void fill(const PointSet& set, std::uint64_t first, std::size_t n, std::span<double> u) {
+    fill_points(set, first, static_cast<int>(u.size() / n), u);
+    if (warp) warp->apply(u, {jacobians.data(), n});
   }
 
   void weigh(std::size_t i, std::span<double> x, bool uniform, const AdaptedDensity& p) {
@@ -74,7 +94,7 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
   Sums sums{std::vector<ScaledMoments>(outputs), empty};
   const std::uint64_t call = std::clamp((integrand.max_points() + block - 1) / block * block, block, least_chunk);
   const auto most = static_cast<std::size_t>(std::min(call, range.last - range.first));
-  WeightedPoints drawn(most, d, proposal.density != nullptr);
+  WeightedPoints drawn(set, most, d, proposal);
   std::vector<double> values(outputs * most), columns(block);
   for (std::uint64_t first = range.first; first < range.last; first += call) {
     const auto n = static_cast<std::size_t>(std::min(call, range.last - first));
@@ -96,6 +116,7 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
     for (std::size_t begin = 0; begin < n; begin += block) {
       const std::size_t size = std::min<std::size_t>(block, n - begin);
       const std::span<double> column(columns.data(), size);
+      if (drawn.warp) sums.jacobians.add(std::span<const double>(drawn.jacobians).subspan(begin, size), first + begin);
       for (std::size_t k = 0; k < outputs; ++k) {
         for (std::size_t i = 0; i < size; ++i) column[i] = all[(begin + i) * outputs + k];
         if (proposal.density) {
@@ -106,6 +127,8 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
           const double c = proposal.control_coefficients[k];
           for (std::size_t i = 0; i < size; ++i) column[i] += c * (1 - drawn.shifts[begin + i]);
         }
+        if (drawn.warp)
+          for (std::size_t i = 0; i < size; ++i) column[i] *= drawn.jacobians[begin + i];
         const double largest = largest_size(column);
         if (keep.batches) sums.add_to_batches(k, column, first + begin, largest);
         sums.outputs[k].add(column, first + begin, largest);
@@ -247,7 +270,7 @@ std::vector<Sums> Evaluator::evaluate(const std::vector<PointSet>& sets, std::ui
 
 void Evaluator::throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t index, const PointSet& set,
                                  const Proposal& proposal) const {
-  WeightedPoints drawn(1, static_cast<std::size_t>(dim), proposal.density != nullptr);
+  WeightedPoints drawn(set, 1, static_cast<std::size_t>(dim), proposal);
   drawn.draw(set, index, 1, static_cast<std::size_t>(dim), proposal);
   std::vector<double> u(drawn.points.begin(), drawn.points.begin() + dim);
   std::string point;

@@ -13,7 +13,7 @@ void Replicates::absorb(std::vector<Sums>&& more, std::size_t first) {
   for (std::size_t r = 0; r < more.size(); ++r) {
     for (std::size_t k = 0; k < sampled_.size(); ++k) sampled_[k].merge(more[r].sampled[k]);
     for (std::size_t k = 0; k < more[r].infinite.size(); ++k) infinite_[k] += more[r].infinite[k].count;
-    Sums only_moments{std::move(more[r].outputs), std::vector<SampledValues>(sampled_.size())};
+    Sums only_moments{std::move(more[r].outputs), std::vector<SampledValues>(sampled_.size()), more[r].jacobians};
     sums_[first + r].merge(std::move(only_moments));
   }
 }
@@ -52,7 +52,7 @@ void Replicates::keep_first(std::uint32_t count) {
 std::vector<std::vector<double>> Replicates::replicate_means() const {
   std::vector<std::vector<double>> means(run_->evaluator.outputs);
   for (std::size_t k = 0; k < means.size(); ++k)
-    for (const Sums& s : sums_) means[k].push_back(s.outputs[k].mean());
+    for (const Sums& s : sums_) means[k].push_back(s.mean(k));
   return means;
 }
 

@@ -60,6 +60,7 @@ struct Sums {
 
   std::vector<ScaledMoments> outputs;               ///< Moments of each output.
   std::vector<SampledValues> sampled;               ///< All values of each output.
+  Moments jacobians = {};                           ///< Jacobians of the axis warp; empty without one.
   std::vector<InfiniteValues> infinite = {};        ///< Infinite values of each output.
   std::vector<ScaledMoments> batches = {};          ///< batch_count moments for each output.
   std::optional<std::uint64_t> first_infinite = {}; ///< Index of the first point with an infinite value.
@@ -73,7 +74,13 @@ struct Sums {
   /// Appends the values of other sums.
   void merge(Sums other);
   /// The sums, see mc/run/archive.h.
-  template <class Archive> void archive(Archive& a) { a(outputs, sampled, infinite, batches, first_infinite); }
+  template <class Archive> void archive(Archive& a) {
+    a(outputs, sampled, jacobians, infinite, batches, first_infinite);
+  }
+  /// Mean of an output: with an axis warp over that of the Jacobians, which is 1 but for the error of the points.
+  double mean(std::size_t output) const {
+    return outputs[output].mean() / (jacobians.count() > 0 ? jacobians.mean() : 1.0);
+  }
 };
 
 } // namespace mc::detail
