@@ -18,7 +18,7 @@ namespace mc::detail {
 ///             intervals of a thousand points.
 class AxisWarp {
  public:
-  static constexpr double strength = 0.25; ///< Largest c in one dimension.
+  static constexpr double strength = 0.125; ///< Largest c in one dimension.
 
   /// The map of a replicate.
   AxisWarp(std::uint64_t seed, std::size_t dim);
