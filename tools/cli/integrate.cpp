@@ -77,7 +77,7 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            domain_option(o.expression),
            {"--name", "NAME", &o.names,
             "Short name of an integrand for the output: once for each integrand, in their order."},
-           {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach."},
+           {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach; 0: use all calls."},
            {"--abs-error", "ERROR", &o.abs_error,
             "Absolute standard error that also suffices, in units of the integral."},
            {"--max-calls", "N", &o.max_calls,
@@ -283,17 +283,19 @@ mc::IntegrateOptions settings_of(const IntegrateCommandOptions& o) {
   return settings;
 }
 
-// Whether every integral has the wanted error, as an exit code. Prints a remedy where an error is known but too large.
+// Whether all errors are known and every integral has the wanted one, as an exit code. Prints a remedy where an error is
+// known but too large. A wanted error of 0 asks for all calls, not for an error.
 int exit_code_of(const IntegrateResults& found, const mc::IntegrateOptions& o) {
   const auto outputs = found.results.outputs.begin();
   const auto end = outputs + std::ptrdiff_t(found.integrands.size());
   if (!std::all_of(outputs, end, [](const mc::Integral& r) { return r.error_bar == mc::ErrorBar::known; }))
     return exit_failed;
+  if (std::ranges::any_of(found.derived, &DerivedValue::has_pole)) return exit_failed;
   const bool reached = std::all_of(outputs, end, [&](const mc::Integral& r) {
     const double wanted = std::max(o.abs_error, o.rel_error * std::abs(r.estimate.value));
     return r.stop == mc::StopReason::converged || r.estimate.std_error <= wanted;
   });
-  if (reached) return exit_ok;
+  if (reached || (o.rel_error == 0 && o.abs_error == 0)) return exit_ok;
   const auto may_be_zero = [](const mc::Integral& r) { return r.interval.lo <= 0 && r.interval.hi >= 0; };
   if (o.abs_error == 0 && std::any_of(outputs, end, may_be_zero))
     fmt::print("the wanted error was not reached: it is relative to an integral that may be 0; give --abs-error\n");

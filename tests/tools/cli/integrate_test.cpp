@@ -320,6 +320,20 @@ TEST(Integrate, ZeroIntegral_AsksForAbsError) {
 }
 
 // An integral of tail index 1 is on the border: the text says at least that it may be infinite.
+TEST(Integrate, ZeroWantedError_UsesAllCallsAndSucceeds) {
+  const auto r = support::run_carlo("integrate 'exp(x)' -d x=0:1 --rel-error 0 --max-calls 20000");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, testing::Not(testing::HasSubstr("not reached")));
+}
+
+TEST(Integrate, DerivedValueWithoutError_Fails) {
+  for (const std::string derived : {"log(-I1)", "I1/0"}) {
+    const auto r = support::run_carlo("integrate x -d x=0:1 --derive '" + derived + "'");
+    EXPECT_EQ(r.exit_code, 1) << r.output;
+    EXPECT_THAT(r.output, testing::HasSubstr("error not known"));
+  }
+}
+
 TEST(Integrate, DivergentIntegral_IsNamed) {
   for (const std::string method : {"auto", "vegas", "rqmc"}) {
     const auto text_of = [&](const std::string& integral) {
