@@ -283,8 +283,8 @@ mc::IntegrateOptions settings_of(const IntegrateCommandOptions& o) {
   return settings;
 }
 
-// Whether all errors are known and every integral has the wanted one, as an exit code. Prints a remedy where an error is
-// known but too large. A wanted error of 0 asks for all calls, not for an error.
+// Whether all errors are known and every integral has the wanted one, as an exit code. Prints a remedy where an error
+// is known but too large. A wanted error of 0 asks for all calls, not for an error.
 int exit_code_of(const IntegrateResults& found, const mc::IntegrateOptions& o) {
   const auto outputs = found.results.outputs.begin();
   const auto end = outputs + std::ptrdiff_t(found.integrands.size());
