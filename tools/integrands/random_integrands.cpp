@@ -199,6 +199,15 @@ double half_plane(double a, double b, double c) {
 
 UnitCubeIntegral aligned(std::uint64_t seed) {
   Draw d(seed, 1, 2);
+  if (d.dim == 2 && d.integer(0, 1) == 0) {
+    // e^(k y) plus or times a jump that is a small part of an interval of the net away from its end.
+    const double k = d.between(0.5, 3), smooth = std::expm1(k) / k, height = std::exp(d.between(-3, 3));
+    const double at = (d.integer(1, 63) + std::copysign(std::exp2(-d.between(3, 8)), d.between(-1, 1))) / 64;
+    if (d.integer(0, 1) == 0)
+      return d.made("aligned", smooth * at, [=](UnitPoint x) { return x[0] < at ? std::exp(k * x[1]) : 0.0; });
+    return d.made("aligned", smooth + height * at,
+                  [=](UnitPoint x) { return std::exp(k * x[1]) + (x[0] < at ? height : 0.0); });
+  }
   if (d.dim == 2) {
     const double a = d.integer(1, 3), b = d.integer(1, 3), c = (a + b) * d.integer(1, 7) / 8;
     return d.made("aligned", half_plane(a, b, c), [=](UnitPoint x) { return a * x[0] + b * x[1] < c ? 1.0 : 0.0; });

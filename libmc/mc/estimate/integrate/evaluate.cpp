@@ -43,7 +43,7 @@ struct WeightedPoints {
     }
     if (const auto seed = scrambling_seed(set); seed && proposal.warps_axes) {
       jacobians.resize(n);
-      warp.emplace(*seed, proposal.density ? d + 1 : d);
+      warp.emplace(*seed, d); // not of the selector, which the net stratifies
     }
   }
 
