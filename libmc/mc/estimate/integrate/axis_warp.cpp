@@ -15,12 +15,12 @@ AxisWarp::AxisWarp(std::uint64_t seed, std::size_t dim) : c_(dim) {
 
 void AxisWarp::apply(std::span<double> points, std::span<double> jacobians) const {
   constexpr double below_one = 1 - 0x1p-53;
-  const std::size_t dim = c_.size(), stride = points.size() / jacobians.size();
+  const std::size_t dim = c_.size();
   std::ranges::fill(jacobians, 1.0);
   for (std::size_t d = 0; d < dim; ++d) {
     const double c = c_[d];
     for (std::size_t i = 0; i < jacobians.size(); ++i) {
-      double& u = points[(i + 1) * stride - dim + d];
+      double& u = points[i * dim + d];
       jacobians[i] *= 1 + c * (1 - 2 * u);
       u = std::min(u + c * u * (1 - u), below_one);
     }

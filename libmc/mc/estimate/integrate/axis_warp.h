@@ -22,8 +22,7 @@ class AxisWarp {
 
   /// The map of a replicate.
   AxisWarp(std::uint64_t seed, std::size_t dim);
-  /// Maps the last `dim` coordinates of points, which lie strictly inside the cube and stay there, and writes the
-  /// Jacobians. Other coordinates may come first: those that choose an interval whose ends are those of the net.
+  /// Maps points strictly inside the cube to such points, and writes their Jacobians.
   void apply(std::span<double> points, std::span<double> jacobians) const;
 
  private:

@@ -43,25 +43,24 @@ struct WeightedPoints {
     }
     if (const auto seed = scrambling_seed(set); seed && proposal.warps_axes) {
       jacobians.resize(n);
-      warp.emplace(*seed, d); // not of the selector, which the net stratifies
+      warp.emplace(*seed, d);
     }
   }
 
   void draw(const PointSet& set, std::uint64_t first, std::size_t n, std::size_t d, const Proposal& proposal) {
     const std::span<double> all(points.data(), n * d);
-    if (!proposal.density) return fill(set, first, n, all);
-    fill(set, first, n, {raw.data(), n * (d + 1)});
+    if (!proposal.density) {
+      fill_points(set, first, static_cast<int>(d), all);
+      if (warp) warp->apply(all, {jacobians.data(), n});
+      return;
+    }
+    fill_points(set, first, static_cast<int>(d + 1), {raw.data(), n * (d + 1)});
     for (std::size_t i = 0; i < n; ++i) {
       const double selector = raw[i * (d + 1)];
       const std::span<double> x = all.subspan(i * d, d);
       std::copy_n(raw.begin() + static_cast<std::ptrdiff_t>(i * (d + 1) + 1), d, x.begin());
       weigh(i, x, selector < Proposal::uniform_share, *proposal.density);
     }
-  }
-
-  void fill(const PointSet& set, std::uint64_t first, std::size_t n, std::span<double> u) {
-    fill_points(set, first, static_cast<int>(u.size() / n), u);
-    if (warp) warp->apply(u, {jacobians.data(), n});
   }
 
   void weigh(std::size_t i, std::span<double> x, bool uniform, const AdaptedDensity& p) {

@@ -40,15 +40,6 @@ TEST(AxisWarp, ReplicatesMoveAPointDifferently) {
   EXPECT_GT(most - least, 0.01); // ten elementary intervals of a thousand points
 }
 
-TEST(AxisWarp, OtherCoordinatesComeFirst) {
-  const AxisWarp warp(5, 2);
-  std::vector<double> plain{0.3, 0.7, 0.2, 0.9}, longer{0.125, 0.3, 0.7, 0.5, 0.2, 0.9}, a(2), b(2);
-  warp.apply(plain, a);
-  warp.apply(longer, b);
-  EXPECT_EQ(a, b);
-  EXPECT_EQ(longer, (std::vector{0.125, plain[0], plain[1], 0.5, plain[2], plain[3]}));
-}
-
 TEST(AxisWarp, PointsStayInsideTheCube) {
   const double ends[] = {0x1p-1022, 0x1p-53, 1 - 0x1p-53};
   for (std::uint64_t seed = 0; seed < 100; ++seed)
