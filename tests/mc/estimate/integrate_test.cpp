@@ -97,16 +97,16 @@ TEST(Integrate, SmoothPlusJump_IntervalsHold) {
     double at, sum, product; // factors of jump and of jump times smooth part
   };
   for (const Method method : {Method::rqmc, Method::automatic})
-    for (const auto& [at, sum, product] :
+    for (const Case& c :
          {Case{0.3164, 0.2, 0}, Case{0.3945, 0.2, 0}, Case{0.0313, 3, 0}, Case{0.18751, 6, 0}, Case{0.0234, 0, 100}}) {
-      const auto f = [&](Unit u) { return std::exp(u[1]) + (u[0] < at ? sum + product * std::exp(u[1]) : 0.0); };
-      const double truth = (std::exp(1.0) - 1) * (1 + product * at) + sum * at;
+      const auto f = [&](Unit u) { return std::exp(u[1]) + (u[0] < c.at ? c.sum + c.product * std::exp(u[1]) : 0.0); };
+      const double truth = (std::exp(1.0) - 1) * (1 + c.product * c.at) + c.sum * c.at;
       int missed = 0;
       for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         const mc::Integral r = mc::integrate_unit(f, 2, with(method, 20'000, seed));
         missed += !(r.interval.lo <= truth && truth <= r.interval.hi);
       }
-      EXPECT_LE(missed, 8) << name(method) << " jump at " << at;
+      EXPECT_LE(missed, 8) << name(method) << " jump at " << c.at;
     }
 }
 
