@@ -77,7 +77,7 @@ std::vector<Option> rows(IntegrateCommandOptions& o) {
            domain_option(o.expression),
            {"--name", "NAME", &o.names,
             "Short name of an integrand for the output: once for each integrand, in their order."},
-           {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach; 0: use all calls."},
+           {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach; 0: none."},
            {"--abs-error", "ERROR", &o.abs_error,
             "Absolute standard error that also suffices, in units of the integral."},
            {"--max-calls", "N", &o.max_calls,

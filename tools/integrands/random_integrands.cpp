@@ -200,7 +200,7 @@ double half_plane(double a, double b, double c) {
 UnitCubeIntegral aligned(std::uint64_t seed) {
   Draw d(seed, 1, 2);
   if (d.dim == 2 && d.integer(0, 1) == 0) {
-    // e^(k y) plus or times a jump that is a small part of an interval of the net away from its end.
+    // e^(k y) plus or times a jump near the end of an interval of the net.
     const double k = d.between(0.5, 3), smooth = std::expm1(k) / k, height = std::exp(d.between(-3, 3));
     const double at = (d.integer(1, 63) + std::copysign(std::exp2(-d.between(3, 8)), d.between(-1, 1))) / 64;
     if (d.integer(0, 1) == 0)

@@ -31,7 +31,8 @@ struct IntegrandClass {
 ///   wave     : cos(b + c . x); 1 to 8.
 ///   product  : product of |4 x - 2|^p; 5 to 20.
 ///   aligned  : functions whose edges or periods fit low-discrepancy points, so that the error falls in steps: a half
-///              plane with an edge of small whole slope, a wave of a Gaussian variable, equal steps; 1 and 2.
+///              plane with an edge of small whole slope, a wave of a Gaussian variable, equal steps, a jump near a
+///              multiple of 1/64 with or times an exponential; 1 and 2.
 const std::vector<IntegrandClass>& integrand_classes();
 
 } // namespace carlo

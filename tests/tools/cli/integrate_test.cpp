@@ -319,7 +319,6 @@ TEST(Integrate, ZeroIntegral_AsksForAbsError) {
   EXPECT_EQ(support::run_carlo("integrate 'x^3+x' -d x=-1:1 --max-calls 20000 --abs-error 0.01").exit_code, 0);
 }
 
-// An integral of tail index 1 is on the border: the text says at least that it may be infinite.
 TEST(Integrate, ZeroWantedError_UsesAllCallsAndSucceeds) {
   const auto r = support::run_carlo("integrate 'exp(x)' -d x=0:1 --rel-error 0 --max-calls 20000");
   EXPECT_EQ(r.exit_code, 0) << r.output;
@@ -334,6 +333,7 @@ TEST(Integrate, DerivedValueWithoutError_Fails) {
   }
 }
 
+// An integral of tail index 1 is on the border: the text says at least that it may be infinite.
 TEST(Integrate, DivergentIntegral_IsNamed) {
   for (const std::string method : {"auto", "vegas", "rqmc"}) {
     const auto text_of = [&](const std::string& integral) {

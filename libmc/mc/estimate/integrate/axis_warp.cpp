@@ -1,3 +1,4 @@
+#include <mc/core/types.h>
 #include <mc/estimate/integrate/axis_warp.h>
 #include <mc/random/hash.h>
 
@@ -14,17 +15,18 @@ AxisWarp::AxisWarp(std::uint64_t seed, std::size_t dim) : c_(dim) {
 }
 
 void AxisWarp::apply(std::span<double> points, std::span<double> jacobians) const {
-  constexpr double below_one = 1 - 0x1p-53;
+  constexpr std::size_t block = 128; // points whose coordinates stay in the cache
   const std::size_t dim = c_.size();
   std::ranges::fill(jacobians, 1.0);
-  for (std::size_t d = 0; d < dim; ++d) {
-    const double c = c_[d];
-    for (std::size_t i = 0; i < jacobians.size(); ++i) {
-      double& u = points[i * dim + d];
-      jacobians[i] *= 1 + c * (1 - 2 * u);
-      u = std::min(u + c * u * (1 - u), below_one);
+  for (std::size_t begin = 0; begin < jacobians.size(); begin += block)
+    for (std::size_t d = 0; d < dim; ++d) {
+      const double c = c_[d];
+      for (std::size_t i = begin; i < std::min(begin + block, jacobians.size()); ++i) {
+        double& u = points[i * dim + d];
+        jacobians[i] *= 1 + c * (1 - 2 * u);
+        u = std::min(u + c * u * (1 - u), one_minus_epsilon<double>);
+      }
     }
-  }
 }
 
 } // namespace mc::detail

@@ -14,7 +14,7 @@ namespace mc::detail {
 ///             error. The maps move the jump to another place of the net in each replicate.
 ///   density : An integral is the mean of f(x) times the Jacobian, the product of 1 + c (1 - 2 u). f stays as smooth as
 ///             it is.
-///   size    : |c| < strength / sqrt(dim), so that the Jacobians vary little in any dimension, and jumps move by many
+///   size    : |c| < strength / sqrt(dim), so that the Jacobians vary little in any dimension. Jumps move by several
 ///             intervals of a thousand points.
 class AxisWarp {
  public:

@@ -115,10 +115,10 @@ Mean mean_of_replicates(std::span<const double> means, double points, const Samp
   const bool constant = is_constant(of_integrand);
   double deviation = pooled_spread(history.points, history.spreads, t);
   // Where replicates agree and seldom differed before, they may do so by chance.
-  if (constant || (history.spreads.back() == 0 && !convergence_rate(history.points, history.spreads, t)))
-    deviation =
-        std::max(deviation, t.unseen_value * (constant ? size_of(of_integrand) : extremes.hi() - extremes.lo()) /
-                                points / std::sqrt(replicates));
+  if (constant || (history.spreads.back() == 0 && !convergence_rate(history.points, history.spreads, t))) {
+    const double range = constant ? size_of(of_integrand) : extremes.hi() - extremes.lo();
+    deviation = std::max(deviation, t.unseen_value * range / points / std::sqrt(replicates));
+  }
   const TailFindings tails = tails_of(values, deviation / std::sqrt(replicates), t);
   history.shapes.push_back(tails.shape);
   std::array<double, 2> unsampled{};

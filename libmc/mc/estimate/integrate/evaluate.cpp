@@ -115,7 +115,11 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
     for (std::size_t begin = 0; begin < n; begin += block) {
       const std::size_t size = std::min<std::size_t>(block, n - begin);
       const std::span<double> column(columns.data(), size);
-      if (drawn.warp) sums.jacobians.add(std::span<const double>(drawn.jacobians).subspan(begin, size), first + begin);
+      if (drawn.warp) {
+        double sum = 0; // of the block first, as in Moments: a constant integrand then has a constant mean
+        for (std::size_t i = 0; i < size; ++i) sum += drawn.jacobians[begin + i];
+        sums.jacobians += sum;
+      }
       for (std::size_t k = 0; k < outputs; ++k) {
         for (std::size_t i = 0; i < size; ++i) column[i] = all[(begin + i) * outputs + k];
         if (proposal.density) {

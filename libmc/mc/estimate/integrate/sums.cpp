@@ -69,7 +69,7 @@ void Sums::merge(Sums other) {
     outputs[k].merge(other.outputs[k]);
     sampled[k].merge(other.sampled[k]);
   }
-  jacobians.merge(other.jacobians);
+  jacobians += other.jacobians;
   infinite.resize(std::max(infinite.size(), other.infinite.size()));
   for (std::size_t k = 0; k < other.infinite.size(); ++k) infinite[k].merge(other.infinite[k]);
   if (!first_infinite) first_infinite = other.first_infinite;

@@ -60,7 +60,7 @@ struct Sums {
 
   std::vector<ScaledMoments> outputs;               ///< Moments of each output.
   std::vector<SampledValues> sampled;               ///< All values of each output.
-  Moments jacobians = {};                           ///< Jacobians of the axis warp; empty without one.
+  double jacobians = 0;                             ///< Sum of the Jacobians of the axis warp; 0 without one.
   std::vector<InfiniteValues> infinite = {};        ///< Infinite values of each output.
   std::vector<ScaledMoments> batches = {};          ///< batch_count moments for each output.
   std::optional<std::uint64_t> first_infinite = {}; ///< Index of the first point with an infinite value.
@@ -79,7 +79,8 @@ struct Sums {
   }
   /// Mean of an output: with an axis warp over that of the Jacobians, which is 1 but for the error of the points.
   double mean(std::size_t output) const {
-    return outputs[output].mean() / (jacobians.count() > 0 ? jacobians.mean() : 1.0);
+    const double count = static_cast<double>(outputs[output].moments().count());
+    return outputs[output].mean() / (jacobians > 0 ? jacobians / count : 1.0);
   }
 };
 

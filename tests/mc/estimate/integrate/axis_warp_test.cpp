@@ -60,11 +60,37 @@ TEST(AxisWarp, MeansAreRelativeToTheJacobians) {
   for (const auto* f : {&constant, &linear}) {
     mc::detail::Run run{{{.one = f}, 1, 3, o}};
     for (const Sums& s : run.evaluator.evaluate(run.sobol_sets(Stream::rqmc, 0, 0, 4), 0, 4096, {.warps_axes = true})) {
-      EXPECT_EQ(s.jacobians.count(), 4096u);
-      EXPECT_NE(s.jacobians.mean(), 1);
+      EXPECT_NE(s.jacobians, 4096);
+      EXPECT_NEAR(s.jacobians, 4096, 1);
       EXPECT_NEAR(s.mean(0), f == &constant ? 7 : 0.5, f == &constant ? 1e-14 : 1e-5);
     }
   }
+}
+
+// Jumps near ends of elementary intervals, beside a smooth part: without the maps the test fails for each of them. At a
+// coverage of 95 %, more than 8 of 50 misses have probability .08 %.
+TEST(AxisWarp, IntervalsHoldForJumpsBesideASmoothPart) {
+  struct Case {
+    double at, sum, product; // factors of jump and of jump times smooth part
+  };
+  for (const mc::Method method : {mc::Method::rqmc, mc::Method::automatic})
+    for (const Case& c :
+         {Case{0.3164, 0.2, 0}, Case{0.3945, 0.2, 0}, Case{0.0313, 3, 0}, Case{0.18751, 6, 0}, Case{0.0234, 0, 100}}) {
+      const auto f = [&](std::span<const double> u) {
+        return std::exp(u[1]) + (u[0] < c.at ? c.sum + c.product * std::exp(u[1]) : 0.0);
+      };
+      const double integral = (std::exp(1.0) - 1) * (1 + c.product * c.at) + c.sum * c.at;
+      int missed = 0;
+      for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        mc::IntegrateOptions o;
+        o.method = method;
+        o.max_calls = 20'000;
+        o.seed = seed;
+        const mc::Integral r = mc::integrate_unit(f, 2, o);
+        missed += !(r.interval.lo <= integral && integral <= r.interval.hi);
+      }
+      EXPECT_LE(missed, 8) << name(method) << " jump at " << c.at;
+    }
 }
 
 } // namespace
