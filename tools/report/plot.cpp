@@ -43,21 +43,22 @@ bool draw_plot(const fs::path& folder, const std::string& name, const std::vecto
   const std::string script = name + ".gp", log = own.file("log");
   fs::create_symlink(fs::absolute(folder / script), own.file(script));
   for (const std::string& file : data) fs::create_symlink(fs::absolute(folder / file), own.file(file));
+  // One process draws both, since gnuplot takes long to start.
+  const std::optional<int> code =
+      run_program({{"gnuplot", "-e", "kind=\"svg\"", script, "-e", "reset; kind=\"png\"", script}, own.file(""), log});
+  if (!code) {
+    remove_plot(folder, name);
+    return false;
+  }
+  mc::require(*code == 0, "gnuplot cannot draw '{}': {}; run gnuplot {} there to see more", (folder / script).string(),
+              last_line(mc::read_file(log)), script);
   for (const std::string kind : {"svg", "png"}) {
-    const std::string picture = fmt::format("{}.{}", name, kind), place = (folder / picture).string();
-    const std::optional<int> code =
-        run_program({{"gnuplot", "-e", fmt::format("kind=\"{}\"", kind), script}, own.file(""), log});
-    if (!code) {
-      remove_plot(folder, name);
-      return false;
-    }
-    mc::require(*code == 0, "gnuplot cannot draw '{}': {}; run gnuplot {} there to see more", place,
-                last_line(mc::read_file(log)), script);
+    const std::string picture = fmt::format("{}.{}", name, kind);
     const std::string bytes = fs::exists(own.file(picture)) ? mc::read_file(own.file(picture)) : std::string();
     mc::require(is_whole(bytes, kind),
                 "gnuplot drew only a part of '{}' in '{}'; is the disk full? Set TMPDIR to a folder on another",
                 picture, own.file(""));
-    mc::write_file(place, bytes);
+    mc::write_file((folder / picture).string(), bytes);
   }
   return true;
 }

@@ -77,7 +77,7 @@ TEST_F(Plot, PartialPicture_IsAnErrorAndTheOldOneStays) {
 
 TEST_F(Plot, GnuplotErrors_AreReportedInOneLine) {
   put_for_gnuplot("printf 'plot b\\n     ^\\n\"a.gp\" line 7: undefined variable: b\\n\\n' >&2; exit 1\n");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("a.svg': \"a.gp\" line 7: undefined variable: b; run gnuplot a.gp"),
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("a.gp': \"a.gp\" line 7: undefined variable: b; run gnuplot a.gp"),
                                  testing::Not(HasSubstr("\n"))));
 }
 
