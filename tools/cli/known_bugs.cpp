@@ -52,6 +52,9 @@ struct DetectionResult {
   bool caught = false;
 };
 
+// A density with jumps takes all evaluations, even for few samples.
+constexpr std::size_t max_evaluations = 2'000'000;
+
 // Doubles the samples until the bug is rejected. All sample sizes together reject a correct distribution with
 // probability alpha.
 //   throws : Interrupted.
@@ -67,7 +70,8 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, c
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
   DetectionResult t;
   for (std::uint64_t n = slip.wrong.min_samples;; n = std::min(2 * n, o.samples)) {
-    t.wrong = slip.wrong.check({.samples = n, .seed = seed, .alpha = alpha, .before_draws = &stop});
+    t.wrong = slip.wrong.check(
+        {.samples = n, .seed = seed, .alpha = alpha, .max_evaluations = max_evaluations, .before_draws = &stop});
     t.samples = n;
     t.caught = t.wrong.verdict() == mc::Verdict::fail;
     if (t.caught || n >= o.samples) break;
@@ -84,9 +88,11 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, c
     else if (deterministic)
       if (const std::uint64_t bad = slip.wrong.first_failure(seed, t.samples)) t.samples = bad;
   }
-  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 4),
+  // Many times the samples that reject any of the bugs.
+  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 16),
                               .seed = seed,
                               .alpha = alpha,
+                              .max_evaluations = max_evaluations,
                               .before_draws = &stop});
   return t;
 }
@@ -169,8 +175,8 @@ void print_stories(const KnownBugs& bugs, const std::vector<std::optional<Detect
 // Prints the boxes and appends them to `all`. Returns whether each agrees with the reference as the books claim.
 // Returns true when interrupted.
 bool check_cornell_boxes(const KnownBugsCommandOptions& o, json& all, const std::atomic<bool>* cancel) {
-  const std::uint64_t paths = o.samples / 4;
-  fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, {} paths each.\n", paths);
+  const std::uint64_t paths = o.samples / 16;
+  fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, at least {} paths each.\n", paths);
   const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads, cancel);
   if (boxes.empty()) return true;
   const double level = mc::sidak_level(o.alpha, 1 / static_cast<double>(boxes.size() - 1));

@@ -22,6 +22,35 @@ struct Hit {
 // The light: y = 554, x in [213, 343], z in [227, 332], shining down.
 constexpr double light_y = 554, light_x0 = 213, light_x1 = 343, light_z0 = 227, light_z1 = 332, radiance = 15;
 
+// Where a line crosses the surface of the box [0, size], and the axes of the faces there. It misses the box unless
+// near < far.
+struct Crossing {
+  double near = -HUGE_VAL, far = HUGE_VAL;
+  int near_axis = 0, far_axis = 0;
+  Crossing(const V& o, const V& d, const V& size) {
+    for (int i = 0; i < 3; ++i) {
+      const double inverse = 1 / d[i], a = -o[i] * inverse, b = (size[i] - o[i]) * inverse;
+      if (std::min(a, b) > near) {
+        near = std::min(a, b);
+        near_axis = i;
+      }
+      if (std::max(a, b) < far) {
+        far = std::max(a, b);
+        far_axis = i;
+      }
+    }
+  }
+};
+
+// The normal of a face across `axis` that a ray along d meets.
+V against(const V& d, int axis) {
+  V n = V::Zero();
+  n[axis] = d[axis] > 0 ? -1 : 1;
+  return n;
+}
+
+constexpr double shortest = 1e-3; // a ray starts on a surface
+
 // A box rotated about y, then translated.
 struct Block {
   double cos, sin;
@@ -32,46 +61,27 @@ struct Block {
   V to_local(const V& v) const { return {cos * v.x() - sin * v.z(), v.y(), sin * v.x() + cos * v.z()}; }
 
   void intersect(const V& o, const V& d, Hit& hit) const {
-    const V lo = to_local(o - corner), ld = to_local(d);
-    double near = 1e-3, far = hit.t;
-    int axis = -1;
-    for (int i = 0; i < 3; ++i) {
-      const double a = -lo[i] / ld[i], b = (size[i] - lo[i]) / ld[i];
-      if (std::min(a, b) > near) {
-        near = std::min(a, b);
-        axis = i;
-      }
-      far = std::min(far, std::max(a, b));
-    }
-    if (axis < 0 || !(near < far)) return;
-    V n = V::Zero();
-    n[axis] = ld[axis] > 0 ? -1 : 1;
-    hit = {near, o + near * d, to_world(n), V::Constant(0.73), false};
+    const V local = to_local(d);
+    const Crossing box(to_local(o - corner), local, size);
+    if (!(box.near > shortest && box.near < std::min(box.far, hit.t))) return;
+    hit = {box.near, o + box.near * d, to_world(against(local, box.near_axis)), V::Constant(0.73), false};
   }
 };
 
+// Rays start inside the room, or before its open front z = 0 and away from the other walls.
 Hit intersect(const V& o, const V& d) {
   static const Block blocks[] = {{15, V(265, 0, 295), V(165, 330, 165)}, {-18, V(130, 0, 65), V(165, 165, 165)}};
   static const V white = V::Constant(0.73), green(0.12, 0.45, 0.15), red(0.65, 0.05, 0.05);
   Hit hit;
-  const auto wall = [&](int axis, double at, const V& albedo) {
-    const double t = (at - o[axis]) / d[axis];
-    if (!(t > 1e-3 && t < hit.t)) return;
-    const V p = o + t * d;
-    for (int i = 0; i < 3; ++i)
-      if (i != axis && !(p[i] >= 0 && p[i] <= 555)) return;
-    V n = V::Zero();
-    n[axis] = d[axis] > 0 ? -1 : 1;
-    hit = {t, p, n, albedo, false};
-  };
-  wall(0, 0, red);
-  wall(0, 555, green);
-  wall(1, 0, white);
-  wall(1, 555, white);
-  wall(2, 555, white);
+  const Crossing room(o, d, V::Constant(555));
+  const int axis = room.far_axis;
+  const bool leaves = axis == 2 && d.z() < 0;
+  const V& side = d.x() > 0 ? green : red;
+  if (room.near < room.far && !leaves)
+    hit = {room.far, o + room.far * d, against(d, axis), axis == 0 ? side : white, false};
   for (const Block& b : blocks) b.intersect(o, d, hit);
   const double t = (light_y - o.y()) / d.y();
-  if (t > 1e-3 && t < hit.t) {
+  if (t > shortest && t < hit.t) {
     const V p = o + t * d;
     if (p.x() >= light_x0 && p.x() <= light_x1 && p.z() >= light_z0 && p.z() <= light_z1)
       hit = {t, p, V(0, d.y() > 0 ? -1 : 1, 0), V::Zero(), true};
@@ -127,18 +137,15 @@ Bounce light_only(const Hit& h, Pcg& r) {
 }
 
 const V eye(278, 278, -800);
-V view(double x, double y) {
-  const double half = std::tan(20 * pi / 180);
-  return V((2 * x - 1) * half, (2 * y - 1) * half, 1).normalized();
-}
+const double half_view = std::tan(20 * pi / 180); // of the picture, at distance 1
+V view(double x, double y) { return V((2 * x - 1) * half_view, (2 * y - 1) * half_view, 1).normalized(); }
 
-// Radiance of the directly visible light. It is the same in every box, so it is computed without noise.
+// Radiance of the directly visible light. It is the same in every box, so it is computed without noise: at distance 1
+// the light is a trapezium between the heights of its far and near edge, as wide as its width over its distance.
 double light_in_view() {
-  constexpr int n = 1000;
-  std::uint64_t seen = 0;
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) seen += intersect(eye, view((x + 0.5) / n, (y + 0.5) / n)).light;
-  return radiance * static_cast<double>(seen) / (n * n);
+  const double up = light_y - eye.y(), low = up / (light_z1 - eye.z()), high = up / (light_z0 - eye.z());
+  const double area = (light_x1 - light_x0) / up * (high * high - low * low) / 2;
+  return radiance * area / (4 * half_view * half_view);
 }
 
 // Radiance of a path through a random point of the picture, without the directly visible light.
@@ -177,11 +184,13 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
   struct RenderSetup {
     CornellBox box;
     Strategy strategy;
+    std::uint64_t times_paths = 1;
   };
   const RenderSetup ways[] = {
       {{"cosine and light, half each", "reference", "cosine directions; the density of a sample is the mixture's",
         true},
-       mixed<cosine>},
+       mixed<cosine>,
+       4},
       {{"normal + unit vector", "book v3.2.3", "cosine directions: right", true}, weightless<on_ball>},
       {{"uniform hemisphere", "book v3.2.3", "right too: the text that calls the difference a bug is stale", true},
        hemisphere},
@@ -190,19 +199,18 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
       {{"doubled cosine lobe", "book, ch. 6", "P2: directions crowd the horizon"}, weightless<doubled_cosine>},
       {{"light only", "book, ch. 7", "P6: what the walls send each other is lost"}, light_only},
       {{"doubled lobe and light, half each", "book, ch. 8", "P2, half hidden by the light samples"},
-       mixed<doubled_cosine>},
+       mixed<doubled_cosine>,
+       4},
   };
   const double direct = light_in_view();
   std::vector<CornellBox> boxes;
   for (const RenderSetup& way : ways) {
-    const bool reference = boxes.empty();
-    const mc::Moments m =
-        render(way.strategy, reference ? 4 * paths : paths, mc::hash(seed, boxes.size()), threads, cancel);
+    const mc::Moments m = render(way.strategy, way.times_paths * paths, mc::hash(seed, boxes.size()), threads, cancel);
     if (cancel && *cancel) return {};
     CornellBox b = way.box;
     b.mean = direct + m.mean();
     b.std_error = m.std_error();
-    if (!reference) {
+    if (!boxes.empty()) {
       const CornellBox& r = boxes.front();
       b.off = b.mean / r.mean - 1;
       b.off_error = std::hypot(b.std_error, r.std_error) / r.mean;
