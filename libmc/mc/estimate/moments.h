@@ -1,6 +1,7 @@
 #pragma once
 /// Running mean and variance.
 
+#include <mc/core/sum.h>
 #include <mc/estimate/estimate.h>
 
 #include <algorithm>
@@ -32,17 +33,14 @@ class Moments {
   /// Adds a block of values with indices from `first` on, in two passes over it and without a division for each value.
   void add(std::span<const double> values, std::uint64_t first) {
     Moments block;
-    double sum = 0;
-    for (const double x : values) sum += x;
+    const double sum = interleaved_sum(values.size(), [&](std::size_t i) { return values[i]; });
     const double n = static_cast<double>(values.size()), mean = sum / n;
     if (!std::isfinite(sum)) { // non-finite values or an overflow of the sum: add values singly
       for (std::size_t i = 0; i < values.size(); ++i) block.add(values[i], first + i);
     } else if (!values.empty()) {
-      double squares = 0, rest = 0;
-      for (const double x : values) {
-        squares += (x - mean) * (x - mean);
-        rest += x - mean;
-      }
+      const auto offset = [&](std::size_t i) { return values[i] - mean; };
+      const double rest = interleaved_sum(values.size(), offset);
+      const double squares = interleaved_sum(values.size(), [&](std::size_t i) { return offset(i) * offset(i); });
       block.count_ = values.size();
       block.mean_ = mean + rest / n;
       block.m2_ = std::max(0.0, squares - rest * rest / n);

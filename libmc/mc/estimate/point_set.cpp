@@ -1,4 +1,5 @@
 #include <mc/core/error.h>
+#include <mc/estimate/axis_warp.h>
 #include <mc/estimate/point_set.h>
 #include <mc/random/permute.h>
 
@@ -22,7 +23,8 @@ namespace {
 
 constexpr std::uint64_t window = 256; // points with indices that differ only in the low bits
 
-MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
+MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u,
+                    std::span<double>) {
   for (std::size_t i = 0; i < u.size(); i += dim)
     for (std::size_t d = 0; d < dim; ++d)
       u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
@@ -33,10 +35,13 @@ MC_CLONES void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t
                            std::size_t skip, std::size_t count, std::array<std::uint32_t, window>& x) {
   // Doubles the number of points in each step, with their bits in reverse order: the second half differs from the first
   // by one column.
-  x[0] = reverse_bits(sobol.unscrambled(static_cast<std::uint32_t>(base), dim));
-  for (std::uint32_t half = 1; half < skip + count; half *= 2) {
-    const std::uint32_t column = reverse_bits(sobol.unscrambled(half, dim));
-    for (std::uint32_t i = 0; i < half; ++i) x[half + i] = x[i] ^ column;
+  x[0] = sobol.reversed(static_cast<std::uint32_t>(base), dim);
+  std::size_t half = 1;
+  for (std::uint32_t k = 0; half < skip + count; ++k, half *= 2) {
+    const std::uint32_t* __restrict const from = x.data();
+    std::uint32_t* __restrict const to = x.data() + half;
+    const std::uint32_t column = sobol.column(k, dim);
+    for (std::size_t i = 0; i < half; ++i) to[i] = from[i] ^ column;
   }
   const auto key = static_cast<std::uint32_t>(hash(seed, dim) >> 32);
   for (std::size_t i = skip; i < skip + count; ++i) x[i] = reverse_bits(owen_scramble_reversed(x[i], key));
@@ -67,6 +72,16 @@ MC_CLONES void interlaced(const std::uint32_t* x, const std::uint32_t* y, std::s
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t bits = spread(x[i] >> 6) << 1 | spread(y[i] >> 6);
     out[i * dim] = std::bit_cast<double>(bits | 0x3ff0000000000000u) - (1 - 0x1p-53);
+  }
+}
+
+// Maps the coordinates u of an axis, and multiplies the Jacobians by the slopes. Writes the coordinates to every dim-th
+// element of out.
+MC_CLONES void warp(const detail::AxisWarp& map, const double* u, std::size_t count, double* jacobians, std::size_t dim,
+                    double* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    jacobians[i] *= map.slope(u[i]);
+    out[i * dim] = map(u[i]);
   }
 }
 
@@ -137,24 +152,50 @@ MC_CLONES void jitter(Descent& points, std::uint64_t key, std::uint64_t index, s
   }
 }
 
-void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
+using Window = std::array<std::uint32_t, window>;
+
+// Writes coordinate d of points base + skip, ... to every stride-th element of out.
+void write_axis(const ScrambledSobol& set, const Sobol& sobol, std::size_t d, std::uint64_t base, std::size_t skip,
+                std::size_t count, std::array<Window, 2>& memory, std::size_t stride, double* out) {
+  const auto dimension = static_cast<std::uint32_t>(d);
+  if (dimension < Sobol::dimensions) {
+    coordinates(sobol, set.seed, dimension, base, skip, count, memory[0]);
+    extended(&memory[0][skip], hash(set.seed, dimension), base + skip, count, stride, out);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) out[i * stride] = coordinate<double>(sobol, base + skip + i, dimension);
+  }
+}
+
+void write_axis(const InterlacedSobol& set, const Sobol& sobol, std::size_t d, std::uint64_t base, std::size_t skip,
+                std::size_t count, std::array<Window, 2>& memory, std::size_t stride, double* out) {
+  const auto first = static_cast<std::uint32_t>(2 * d);
+  MC_ASSERT(first + 1 < Sobol::dimensions);
+  for (std::uint32_t i = 0; i < 2; ++i) coordinates(sobol, set.seed, first + i, base, skip, count, memory[i]);
+  interlaced(&memory[0][skip], &memory[1][skip], count, stride, out);
+}
+
+// Points of ScrambledSobol or InterlacedSobol.
+template <class Set>
+requires requires(const Set& s) { s.warped; }
+void fill(const Set& set, std::uint64_t first, std::size_t dim, std::span<double> u, std::span<double> jacobians) {
   const Sobol sobol(set.seed);
-  std::array<std::uint32_t, window> x;
+  std::array<Window, 2> memory;
+  std::array<double, window> axis;
+  std::ranges::fill(jacobians, 1.0);
   windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
     for (std::size_t d = 0; d < dim; ++d) {
-      const auto dimension = static_cast<std::uint32_t>(d);
-      if (dimension < Sobol::dimensions) {
-        coordinates(sobol, set.seed, dimension, base, skip, count, x);
-        extended(&x[skip], hash(set.seed, dimension), base + skip, count, dim, out + d);
-      } else {
-        for (std::size_t i = 0; i < count; ++i)
-          out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);
+      if (!set.warped) {
+        write_axis(set, sobol, d, base, skip, count, memory, dim, out + d);
+        continue;
       }
+      write_axis(set, sobol, d, base, skip, count, memory, 1, axis.data());
+      double* const products = &jacobians[base + skip - first];
+      warp(detail::AxisWarp(set.seed, dim, d), axis.data(), count, products, dim, out + d);
     }
   });
 }
 
-void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
+void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::span<double> u, std::span<double>) {
   constexpr std::size_t group = 8;
   std::array<std::uint32_t, window> boxes;
   Descent points;
@@ -185,23 +226,19 @@ void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::s
   });
 }
 
-void fill(const InterlacedSobol& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
-  MC_ASSERT(2 * dim <= Sobol::dimensions);
-  const Sobol sobol(set.seed);
-  std::array<std::uint32_t, window> x, y;
-  windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
-    for (std::size_t d = 0; d < dim; ++d) {
-      coordinates(sobol, set.seed, static_cast<std::uint32_t>(2 * d), base, skip, count, x);
-      coordinates(sobol, set.seed, static_cast<std::uint32_t>(2 * d + 1), base, skip, count, y);
-      interlaced(&x[skip], &y[skip], count, dim, out + d);
-    }
-  });
-}
-
 } // namespace
 
-void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u) {
-  std::visit([&](const auto& s) { fill(s, first, static_cast<std::size_t>(dim), u); }, set);
+bool is_warped(const PointSet& set) {
+  const auto warped = [](const auto& s) {
+    if constexpr (requires { s.warped; }) return s.warped;
+    else return false;
+  };
+  return std::visit(warped, set);
+}
+
+void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u, std::span<double> jacobians) {
+  MC_ASSERT(!is_warped(set) || jacobians.size() == u.size() / static_cast<std::size_t>(dim));
+  std::visit([&](const auto& s) { fill(s, first, static_cast<std::size_t>(dim), u, jacobians); }, set);
 }
 
 } // namespace mc

@@ -13,6 +13,7 @@ namespace mc {
 /// Owen-scrambled Sobol' sequence with coordinates of double precision.
 struct ScrambledSobol {
   std::uint64_t seed = 0; ///< Seed of the scrambling.
+  bool warped = false;    ///< Whether each axis has a detail::AxisWarp.
 };
 
 /// Each coordinate interlaces the bits of two coordinates of a ScrambledSobol. The result is a net of order 2. For
@@ -21,6 +22,7 @@ struct ScrambledSobol {
 ///   Source : [Dick11].
 struct InterlacedSobol {
   std::uint64_t seed = 0; ///< Seed of the scrambling.
+  bool warped = false;    ///< Whether each axis has a detail::AxisWarp.
 };
 
 /// `count` jittered points, one in each of `count` boxes of equal volume, in groups of 8 dimensions. Like Stratified,
@@ -38,13 +40,17 @@ struct JitteredBoxes {
 /// A point set of integrate().
 using PointSet = std::variant<Independent, JitteredBoxes, ScrambledSobol, InterlacedSobol>;
 
+/// Whether the axes of a set have maps.
+bool is_warped(const PointSet& set);
+
 /// Writes points first, first + 1, ... to u, with the dim coordinates of each point in sequence. u.size() must be a
-/// multiple of dim.
+/// multiple of dim. The points of a warped set need room for as many Jacobians.
 ///   Independent     : The bits of coordinate<double>(sampler, index, dim).
 ///   JitteredBoxes   : Indices must be below its count.
 ///   ScrambledSobol  : The leading 32 bits of Sobol(seed), then 20 hashed bits, at the middle of the interval of that
 ///                     precision. Never 0 or 1. Indices must be below 2^32.
 ///   InterlacedSobol : Same, with 26 bits from each of the coordinates 2 d and 2 d + 1. dim must be at most 512.
-void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u);
+void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u,
+                 std::span<double> jacobians = {});
 
 } // namespace mc

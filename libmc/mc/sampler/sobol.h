@@ -37,6 +37,15 @@ class Sobol {
 
   /// Coordinate `dim` of point `index` before scrambling, in units of 2^-32.
   std::uint32_t unscrambled(std::uint32_t index, std::uint32_t dim) const { return reverse_bits(reversed(index, dim)); }
+  /// The same with its bits in reverse order, as owen_scramble_reversed() takes it: the exclusive or of the columns
+  /// that the bits of the index select. Reads all 32 columns, because a branch for each bit would be mispredicted.
+  std::uint32_t reversed(std::uint32_t index, std::uint32_t dim) const {
+    std::uint32_t x = 0;
+    for (std::uint32_t k = 0; k < 32; ++k) x ^= column(k, dim) & (0u - (index >> k & 1u));
+    return x;
+  }
+  /// Column k of the generator matrix of a dimension, k < 32: reversed(2^k, dim).
+  std::uint32_t column(std::uint32_t k, std::uint32_t dim) const { return columns_[std::size_t{dim} * 32 + k]; }
 
   /// Coordinate `dim` of points first, first + 1, ... Equal to coordinate<S>() bit by bit, but computes several points
   /// at a time.
@@ -65,16 +74,6 @@ class Sobol {
   }
 
  private:
-  // The coordinate before scrambling with its leading bit last, as the scrambling takes it. It is the exclusive or of
-  // the columns selected by the bits of the index. Reads all 32 columns, because a branch for each bit would be
-  // mispredicted.
-  std::uint32_t reversed(std::uint32_t index, std::uint32_t dim) const {
-    const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
-    std::uint32_t x = 0;
-    for (std::uint32_t k = 0; k < 32; ++k) x ^= column[k] & (0u - (index >> k & 1u));
-    return x;
-  }
-
   /// Table of dimensions x 32 columns, each with its leading bit last. Built once per process.
   static const std::uint32_t* direction_numbers();
 

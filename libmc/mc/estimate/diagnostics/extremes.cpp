@@ -1,3 +1,4 @@
+#include <mc/core/sum.h>
 #include <mc/estimate/diagnostics/extremes.h>
 
 #include <algorithm>
@@ -16,12 +17,9 @@ Extremes::Extremes() : high_cut_(-infinity), low_cut_(infinity) {}
 void Extremes::add(std::span<const double> values) {
   if (values.empty()) return;
   const double n = static_cast<double>(values.size());
-  double sum = 0;
+  const double sum = interleaved_sum(values.size(), [&](std::size_t i) { return std::abs(values[i]); });
   std::uint64_t zeros = 0;
-  for (const double x : values) {
-    sum += std::abs(x);
-    zeros += x == 0;
-  }
+  for (const double x : values) zeros += x == 0;
   double mean = sum / n;
   if (!std::isfinite(sum)) { // non-finite values, or an overflow of the sum
     std::vector<double> finite;
@@ -34,13 +32,20 @@ void Extremes::add(std::span<const double> values) {
   count_ += values.size();
   zeros_ += zeros;
   mean_size_ += (mean - mean_size_) * (n / static_cast<double>(count_));
+  constexpr std::size_t together = 32;
+  for (; !values.empty(); values = values.subspan(std::min(together, values.size()))) {
+    const std::span<const double> part = values.first(std::min(together, values.size()));
+    std::uint64_t beyond = 0;
+    for (const double x : part) beyond += (x > high_cut_) | (x < low_cut_);
+    if (beyond > 0) keep(part);
+  }
+}
+
+void Extremes::keep(std::span<const double> values) {
   for (const double x : values) {
-    if (x > high_cut_) [[unlikely]]
-      high_.push_back(x);
-    if (x < low_cut_) [[unlikely]]
-      low_.push_back(x);
-    if (std::max(high_.size(), low_.size()) >= 4 * capacity) [[unlikely]]
-      compact();
+    if (x > high_cut_) high_.push_back(x);
+    if (x < low_cut_) low_.push_back(x);
+    if (std::max(high_.size(), low_.size()) >= 4 * capacity) compact();
   }
 }
 

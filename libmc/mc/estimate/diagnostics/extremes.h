@@ -40,6 +40,7 @@ class Extremes {
   std::vector<double> smallest(std::size_t k) const;
 
  private:
+  void keep(std::span<const double> values);
   void compact();
 
   std::uint64_t count_ = 0, zeros_ = 0;

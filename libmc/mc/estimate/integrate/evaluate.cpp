@@ -1,5 +1,5 @@
 #include <mc/core/error.h>
-#include <mc/estimate/integrate/axis_warp.h>
+#include <mc/core/sum.h>
 #include <mc/estimate/integrate/evaluate.h>
 #include <mc/run/job.h>
 #include <mc/stats/scale.h>
@@ -23,17 +23,9 @@ constexpr double thread_start = 5e-4;           // seconds of work above which o
 constexpr double most_infinite = 1e-3;          // largest volume of infinite values; a larger one is no singularity
 constexpr double few_infinite = 8;              // points always allowed to be infinite
 
-// The seed of a set of scrambled points.
-std::optional<std::uint64_t> scrambling_seed(const PointSet& set) {
-  if (const auto* s = std::get_if<ScrambledSobol>(&set)) return s->seed;
-  if (const auto* s = std::get_if<InterlacedSobol>(&set)) return s->seed;
-  return {};
-}
-
 // Points of a call with their weights: an average of (f * factor - c * shift + c) * jacobian.
 struct WeightedPoints {
   std::vector<double> raw, points, factors, shifts, jacobians, scratch;
-  std::optional<AxisWarp> warp;
 
   WeightedPoints(const PointSet& set, std::size_t n, std::size_t d, const Proposal& proposal)
       : points(n * d), factors(n, 1.0), scratch(d) {
@@ -41,20 +33,17 @@ struct WeightedPoints {
       raw.resize(n * (d + 1));
       shifts.resize(n);
     }
-    if (const auto seed = scrambling_seed(set); seed && proposal.warps_axes) {
-      jacobians.resize(n);
-      warp.emplace(*seed, d);
-    }
+    if (is_warped(set)) jacobians.resize(n);
   }
 
   void draw(const PointSet& set, std::uint64_t first, std::size_t n, std::size_t d, const Proposal& proposal) {
     const std::span<double> all(points.data(), n * d);
+    const std::span<double> of_map(jacobians.data(), std::min(n, jacobians.size()));
     if (!proposal.density) {
-      fill_points(set, first, static_cast<int>(d), all);
-      if (warp) warp->apply(all, {jacobians.data(), n});
+      fill_points(set, first, static_cast<int>(d), all, of_map);
       return;
     }
-    fill_points(set, first, static_cast<int>(d + 1), {raw.data(), n * (d + 1)});
+    fill_points(set, first, static_cast<int>(d + 1), {raw.data(), n * (d + 1)}, of_map);
     for (std::size_t i = 0; i < n; ++i) {
       const double selector = raw[i * (d + 1)];
       const std::span<double> x = all.subspan(i * d, d);
@@ -115,10 +104,9 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
     for (std::size_t begin = 0; begin < n; begin += block) {
       const std::size_t size = std::min<std::size_t>(block, n - begin);
       const std::span<double> column(columns.data(), size);
-      if (drawn.warp) {
-        double sum = 0; // of the block first, as in Moments: a constant integrand then has a constant mean
-        for (std::size_t i = 0; i < size; ++i) sum += drawn.jacobians[begin + i];
-        sums.jacobians += sum;
+      if (!drawn.jacobians.empty()) {
+        // In the order of Moments: a constant integrand then has a constant mean.
+        sums.jacobians += interleaved_sum(size, [&](std::size_t i) { return drawn.jacobians[begin + i]; });
       }
       for (std::size_t k = 0; k < outputs; ++k) {
         for (std::size_t i = 0; i < size; ++i) column[i] = all[(begin + i) * outputs + k];
@@ -130,7 +118,7 @@ Sums Evaluator::evaluate_chunk(const PointSet& set, Chunk range, const Proposal&
           const double c = proposal.control_coefficients[k];
           for (std::size_t i = 0; i < size; ++i) column[i] += c * (1 - drawn.shifts[begin + i]);
         }
-        if (drawn.warp)
+        if (!drawn.jacobians.empty())
           for (std::size_t i = 0; i < size; ++i) column[i] *= drawn.jacobians[begin + i];
         const double largest = largest_size(column);
         if (keep.batches) sums.add_to_batches(k, column, first + begin, largest);

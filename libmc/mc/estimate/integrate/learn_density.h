@@ -21,7 +21,6 @@ struct Proposal {
 
   std::shared_ptr<const AdaptedDensity> density = {}; ///< p; null for uniform points.
   std::vector<double> control_coefficients = {};      ///< c of each output; empty for 0.
-  bool warps_axes = false; ///< Whether each scrambled set has its own AxisWarp; only without a density.
 
   /// Density q at x. `scratch` must have room for the coordinates of x.
   double density_at(std::span<const double> x, std::span<double> scratch) const {

@@ -15,9 +15,7 @@ class Replicates {
 
   /// `count` sequences of a round of a stream.
   Replicates(Run& run, Stream stream, std::uint64_t round, std::uint32_t count, Proposal proposal = {})
-      : run_(&run), stream_(stream), round_(round), count_(count), proposal_(std::move(proposal)) {
-    proposal_.warps_axes = !proposal_.density; // the bins of a density are aligned with the net
-  }
+      : run_(&run), stream_(stream), round_(round), count_(count), proposal_(std::move(proposal)) {}
 
   /// Extends every sequence to this length, and returns the means. The added points may be recorded.
   const Means& extend(std::uint64_t length, bool record = false);

@@ -19,8 +19,9 @@ std::vector<PointSet> Run::sobol_sets(Stream stream, std::uint64_t round, std::u
   std::vector<PointSet> sets;
   for (std::uint32_t r = begin; r < end; ++r) {
     const std::uint64_t seed = hash(options().seed, static_cast<std::uint64_t>(stream), round, r);
-    if (interlaced(stream)) sets.emplace_back(InterlacedSobol{seed});
-    else sets.emplace_back(ScrambledSobol{seed});
+    const bool warped = stream == Stream::rqmc;
+    if (interlaced(stream)) sets.emplace_back(InterlacedSobol{seed, warped});
+    else sets.emplace_back(ScrambledSobol{seed, warped});
   }
   return sets;
 }

@@ -58,7 +58,7 @@ struct Run {
   /// Whether the points of a stream are interlaced.
   bool interlaced(Stream stream) const { return stream == Stream::rqmc && evaluator.dim <= 2; }
   /// Point sets of replicates [begin, end) of a round of a stream: interlaced Sobol' points for rqmc in up to two
-  /// dimensions, else scrambled ones.
+  /// dimensions, else scrambled ones. Those of rqmc are warped; the bins of a learned density are aligned with the net.
   std::vector<PointSet> sobol_sets(Stream stream, std::uint64_t round, std::uint32_t begin, std::uint32_t end) const;
   /// Records a round, and reports the progress.
   void record(Method method, const Means& means, bool learning = false);

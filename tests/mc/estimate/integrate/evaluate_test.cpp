@@ -39,8 +39,8 @@ TEST(Evaluator, RecordsTheFirstPointsOfEachSet) {
   ASSERT_EQ(record.values.size(), 10'000u);
   for (std::size_t set = 0; set < 2; ++set)
     for (const std::size_t i : {0u, 4095u, 4096u, 4999u}) {
-      std::vector<double> u(2);
-      mc::fill_points(sets[set], 100 + i, 2, u);
+      std::vector<double> u(2), jacobian(1);
+      mc::fill_points(sets[set], 100 + i, 2, u, jacobian);
       const std::size_t at = set * 5000 + i;
       EXPECT_EQ(record.points[2 * at], u[0]);
       EXPECT_EQ(record.values[at], weighted_sum(u));
