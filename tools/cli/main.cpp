@@ -137,7 +137,14 @@ std::string message_of(const CLI::App& app, const CLI::ParseError& e) {
     if (o->get_expected_max() == 1 && o->count() > 1)
       return fmt::format("{} is given {} times; give it once ({})", o->get_name(), o->count(), help);
   const std::vector<std::string> unknown = app.remaining(true);
-  if (unknown.empty()) return fmt::format("{} ({})", e.what(), help);
+  const std::string what = e.what();
+  constexpr std::string_view lacks = ": 1 required ", missing = " missing";
+  if (const std::size_t at = what.find(lacks); at != what.npos && what.ends_with(missing)) {
+    const std::size_t value = at + lacks.size();
+    return fmt::format("{0} needs a value: {0} {1} ({2})", what.substr(0, at),
+                       what.substr(value, what.size() - missing.size() - value), help);
+  }
+  if (unknown.empty()) return fmt::format("{} ({})", what, help);
   auto word = std::find_if(unknown.begin(), unknown.end(), [](const auto& u) { return u.starts_with('-'); });
   if (word == unknown.end()) word = unknown.begin();
   std::vector<std::string> names;

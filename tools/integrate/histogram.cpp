@@ -17,6 +17,12 @@ namespace carlo {
 
 namespace {
 
+std::string bin_name(const std::string& observable, double lo, double hi) {
+  if (std::isinf(lo)) return fmt::format("{} < {:.4g}", observable, hi);
+  if (std::isinf(hi)) return fmt::format("{} >= {:.4g}", observable, lo);
+  return fmt::format("{} in [{:.4g}, {:.4g})", observable, lo, hi);
+}
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double number(std::string_view word) {
@@ -110,7 +116,7 @@ std::size_t bin_of(const std::vector<double>& edges, double x) {
 std::vector<HistogramBin> named_bins(const std::string& name, const std::vector<double>& edges) {
   std::vector<HistogramBin> bins;
   for (std::size_t k = 0; k + 1 < edges.size(); ++k)
-    bins.push_back({fmt::format("{} in [{:.4g}, {:.4g})", name, edges[k], edges[k + 1]), edges[k], edges[k + 1], {}});
+    bins.push_back({bin_name(name, edges[k], edges[k + 1]), edges[k], edges[k + 1], {}});
   return bins;
 }
 

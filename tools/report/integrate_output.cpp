@@ -133,7 +133,8 @@ std::string round_table(const mc::Integral& r) {
                         fmt::format("{}{}", name(round.method), round.learning ? ", learning" : ""),
                         format_count(double(round.calls)), value_with_error(round.estimate, round.error_bar),
                         std::isfinite(round.chi2) ? fmt::format("{:.2f}", round.chi2) : "-");
-  return text + fmt::format("sum of chi2: {:.2f}, {:.0f} degrees of freedom\n", r.chi2, r.chi2_dof);
+  return text + fmt::format("sum of chi2: {:.2f}, {:.0f} degree{} of freedom\n", r.chi2, r.chi2_dof,
+                            r.chi2_dof == 1 ? "" : "s");
 }
 
 std::string histogram_table(const IntegrateResults& found) {

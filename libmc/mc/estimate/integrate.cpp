@@ -73,8 +73,8 @@ std::string Integral::to_string() const {
     break;
   }
   if (!consistent)
-    text += fmt::format("; the rounds disagree (chi-square {:.3g} for {:.0f} degrees of freedom): distrust the error",
-                        chi2, chi2_dof);
+    text += fmt::format("; the rounds disagree (chi-square {:.3g} for {:.0f} degree{} of freedom): distrust the error",
+                        chi2, chi2_dof, chi2_dof == 1 ? "" : "s");
   return text;
 }
 

@@ -23,11 +23,10 @@ namespace {
 
 constexpr std::uint64_t window = 256; // points with indices that differ only in the low bits
 
-MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u,
-                    std::span<double>) {
-  for (std::size_t i = 0; i < u.size(); i += dim)
-    for (std::size_t d = 0; d < dim; ++d)
-      u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
+// Writes a coordinate of points first, first + 1, ... to every dim-th element of out.
+MC_CLONES void independent(const Independent& sampler, std::uint32_t axis, std::uint64_t first, std::size_t count,
+                           std::size_t dim, double* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i * dim] = coordinate<double>(sampler, first + i, axis);
 }
 
 // Writes scrambled coordinates of points base + skip, ..., base + skip + count - 1 to elements skip, ... of x.
@@ -150,6 +149,13 @@ MC_CLONES void jitter(Descent& points, std::uint64_t key, std::uint64_t index, s
     points.box[i] -= start;
     points.boxes[i] = size;
   }
+}
+
+void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u, std::span<double>) {
+  windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
+    for (std::size_t d = 0; d < dim; ++d)
+      independent(sampler, static_cast<std::uint32_t>(d), base + skip, count, dim, out + d);
+  });
 }
 
 using Window = std::array<std::uint32_t, window>;

@@ -32,7 +32,7 @@ TEST(Main, UnknownArgument_IsNamed) {
   says("render a --time 1s", "--time: '1s' is not a number (see carlo render --help)");
   says("validate Linear --plugin ''",
        "--plugin: '' is empty; give a value or leave it out (see carlo validate --help)");
-  says("render a --spp", "--spp: 1 required N missing (see carlo render --help)");
+  says("render a --spp", "--spp needs a value: --spp N (see carlo render --help)");
 }
 
 } // namespace
