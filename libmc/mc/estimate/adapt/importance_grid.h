@@ -45,7 +45,7 @@ class ImportanceGrid {
   std::span<const double> edges(int d) const;
 
  private:
-  static constexpr std::size_t cells = 256; // equal intervals of each axis, for the search of bins
+  static constexpr std::size_t cells = 1024; // equal intervals of each axis, for the search of bins
 
   void index(std::size_t d);
   std::size_t bin(std::size_t d, double x) const;

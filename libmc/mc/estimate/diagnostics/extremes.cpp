@@ -43,8 +43,14 @@ void Extremes::add(std::span<const double> values) {
 
 void Extremes::keep(std::span<const double> values) {
   for (const double x : values) {
-    if (x > high_cut_) high_.push_back(x);
-    if (x < low_cut_) low_.push_back(x);
+    if (x > high_cut_) {
+      hi_ = high_.empty() ? x : std::max(hi_, x);
+      high_.push_back(x);
+    }
+    if (x < low_cut_) {
+      lo_ = low_.empty() ? x : std::min(lo_, x);
+      low_.push_back(x);
+    }
     if (std::max(high_.size(), low_.size()) >= 4 * capacity) compact();
   }
 }
@@ -66,6 +72,8 @@ void Extremes::merge(const Extremes& other) {
   count_ += other.count_;
   zeros_ += other.zeros_;
   mean_size_ += (other.mean_size_ - mean_size_) * (static_cast<double>(other.count_) / static_cast<double>(count_));
+  if (!other.high_.empty()) hi_ = high_.empty() ? other.hi_ : std::max(hi_, other.hi_);
+  if (!other.low_.empty()) lo_ = low_.empty() ? other.lo_ : std::min(lo_, other.lo_);
   high_cut_ = std::max(high_cut_, other.high_cut_);
   low_cut_ = std::min(low_cut_, other.low_cut_);
   high_.insert(high_.end(), other.high_.begin(), other.high_.end());
@@ -81,9 +89,6 @@ Extremes Extremes::for_more_values() const {
   next.low_cut_ = full.low_cut_;
   return next;
 }
-
-double Extremes::hi() const { return high_.empty() ? 0.0 : *std::max_element(high_.begin(), high_.end()); }
-double Extremes::lo() const { return low_.empty() ? 0.0 : *std::min_element(low_.begin(), low_.end()); }
 
 namespace {
 // The first k values in an order, or all that are kept.

@@ -22,7 +22,9 @@ class Extremes {
   Extremes for_more_values() const;
 
   /// The values, see mc/run/archive.h.
-  template <class Archive> void archive(Archive& a) { a(count_, zeros_, mean_size_, high_cut_, low_cut_, high_, low_); }
+  template <class Archive> void archive(Archive& a) {
+    a(count_, zeros_, mean_size_, high_cut_, low_cut_, hi_, lo_, high_, low_);
+  }
 
   /// Number of finite values.
   std::uint64_t count() const { return count_; }
@@ -31,9 +33,9 @@ class Extremes {
   /// Mean of the absolute values; 0 without values.
   double mean_size() const { return mean_size_; }
   /// Largest value; 0 without values.
-  double hi() const;
+  double hi() const { return hi_; }
   /// Smallest value; 0 without values.
-  double lo() const;
+  double lo() const { return lo_; }
   /// The k largest values in descending order, or all that are kept.
   std::vector<double> largest(std::size_t k) const;
   /// The k smallest values in ascending order, or all that are kept.
@@ -46,6 +48,7 @@ class Extremes {
   std::uint64_t count_ = 0, zeros_ = 0;
   double mean_size_ = 0;
   double high_cut_, low_cut_; // only values above or below can be kept
+  double hi_ = 0, lo_ = 0;    // of the values that are kept
   std::vector<double> high_, low_;
 
  public:
