@@ -82,6 +82,18 @@ TEST(Methods, AutomaticChangesTheDensityOnlyWhereItPays) {
   }
 }
 
+// The densities of a box err less than uniform points from the first hundreds of calls on. Each return to uniform points
+// would leave an error that is forty times as large.
+TEST(Methods, Automatic_Box_KeepsTheBetterDensity) {
+  const Function box = [](std::span<const double> u) {
+    return u[0] >= 0.1374 && u[0] < 0.3021 && u[1] >= 0.5193 && u[1] < 0.9226 && u[2] >= 0.3071 && u[2] < 0.4459;
+  };
+  int uniform = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed)
+    uniform += integral(box, 3, mc::Method::automatic, 0, 50'000, seed).method == mc::Method::rqmc;
+  EXPECT_EQ(uniform, 0);
+}
+
 // A long thin Gaussian along no axis, on .015 % of the volume. Uniform points that miss it have the least variance, and
 // the first densities follow only a part of it.
 TEST(Methods, Automatic_NarrowRidge_FindsTheWholeIntegral) {
