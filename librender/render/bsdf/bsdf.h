@@ -15,7 +15,8 @@
 
 namespace render {
 
-/// Any of the BSDFs; itself models BsdfLike.
+/// Any of the BSDFs; itself models BsdfLike. Only sample(), whose result is large, is in line: the other calls cost
+/// less than they compute.
 struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
                            RoughDielectric<>, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
                            SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor,
@@ -26,18 +27,10 @@ struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<Layered
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
     return dispatch(*this, [&](const auto& b) { return b.sample(wo, uc, u); });
   }
-  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    return dispatch(*this, [&](const auto& b) { return b.eval(wo, wi); });
-  }
-  Float pdf(const Vec3& wo, const Vec3& wi) const {
-    return dispatch(*this, [&](const auto& b) { return b.pdf(wo, wi); });
-  }
-  Float eta(const Vec3& wo, const Vec3& wi) const {
-    return dispatch(*this, [&](const auto& b) { return b.eta(wo, wi); });
-  }
-  Float albedo(const Vec3& wo) const {
-    return dispatch(*this, [&](const auto& b) { return b.albedo(wo); });
-  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const;
+  Float pdf(const Vec3& wo, const Vec3& wi) const;
+  Float eta(const Vec3& wo, const Vec3& wi) const;
+  Float albedo(const Vec3& wo) const;
   Lobes lobes() const {
     return dispatch(*this, [](const auto& b) { return b.lobes(); });
   }

@@ -53,20 +53,7 @@ class TexturedBsdf {
   bool is_filtered() const { return is_filtered_; }
   /// BSDF at the texture coordinates uv, for a footprint as in Texture. Its colours are at most 1: interpolation may
   /// round above 1.
-  Bsdf at(const Vec2d& uv, Float footprint = 0) const {
-    return dispatch(untextured_, [&](auto bsdf) -> Bsdf {
-      const auto color = [&](const Texture& t) { return Spectrum(t.eval(uv, footprint).min(Float(1))); };
-      if constexpr (requires { bsdf.set_alpha(Float()); })
-        if (textures_.alpha) bsdf.set_alpha(textures_.alpha->at(uv, footprint));
-      if constexpr (requires { bsdf.set_diffuse_reflectance(Spectrum()); })
-        if (const auto& t = textures_.diffuse_reflectance) bsdf.set_diffuse_reflectance(color(*t));
-      if constexpr (requires { bsdf.set_specular_reflectance(Spectrum()); })
-        if (const auto& t = textures_.specular_reflectance) bsdf.set_specular_reflectance(color(*t));
-      if constexpr (requires { bsdf.set_specular_transmittance(Spectrum()); })
-        if (const auto& t = textures_.specular_transmittance) bsdf.set_specular_transmittance(color(*t));
-      return bsdf;
-    });
-  }
+  Bsdf at(const Vec2d& uv, Float footprint = 0) const;
 
  private:
   Bsdf untextured_;
