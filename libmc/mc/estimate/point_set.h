@@ -40,11 +40,12 @@ struct JitteredBoxes {
 /// A point set of integrate().
 using PointSet = std::variant<Independent, JitteredBoxes, ScrambledSobol, InterlacedSobol>;
 
-/// Whether the axes of a set have maps.
+/// Whether the axes of a set have maps, so that its points have Jacobians.
 bool is_warped(const PointSet& set);
 
 /// Writes points first, first + 1, ... to u, with the dim coordinates of each point in sequence. u.size() must be a
-/// multiple of dim. The points of a warped set need room for as many Jacobians.
+/// multiple of dim. Of a warped set also the Jacobians of its maps, one for each point: jacobians.size() must be the
+/// number of points. Other sets need none.
 ///   Independent     : The bits of coordinate<double>(sampler, index, dim).
 ///   JitteredBoxes   : Indices must be below its count.
 ///   ScrambledSobol  : The leading 32 bits of Sobol(seed), then 20 hashed bits, at the middle of the interval of that
