@@ -23,7 +23,8 @@ for scene in "$scenes"/*.xml; do
   done
   same "$(basename "$scene")"
 done
-for integrand in "exp(-x*x)*cos(y) -d x=0:1,y=-1:2" "sqrt(x)*log(y)+z*v -d x=0:1,y=1:2,z=0:1,v=0:3" "genz_c0_8d"; do
+for integrand in "exp(-x*x)*cos(y) -d x=0:1,y=-1:2" "sqrt(x)*log(y)+z*v -d x=0:1,y=1:2,z=0:1,v=0:3" "genz_c0_8d" \
+  "x*y exp(x) x+y -d x=0:1,y=0:1 --derive I2/I1-I3"; do
   for run in "one $1" "two $2"; do
     read -r name carlo <<<"$run"
     # shellcheck disable=SC2086

@@ -69,7 +69,9 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, c
   for (std::uint64_t n = slip.wrong.min_samples; n < o.samples; n *= 2) looks += 1;
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
   DetectionResult t;
+  std::uint64_t tried = 0; // samples that rejected the bug, or the most
   for (std::uint64_t n = slip.wrong.min_samples;; n = std::min(2 * n, o.samples)) {
+    tried = n;
     t.wrong = slip.wrong.check(
         {.samples = n, .seed = seed, .alpha = alpha, .max_evaluations = max_evaluations, .before_draws = &stop});
     t.samples = n;
@@ -88,8 +90,7 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, c
     else if (deterministic)
       if (const std::uint64_t bad = slip.wrong.first_failure(seed, t.samples)) t.samples = bad;
   }
-  // Many times the samples that reject any of the bugs.
-  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 16),
+  t.right = slip.right.check({.samples = std::max({slip.right.min_samples, o.samples / 16, 4 * tried}),
                               .seed = seed,
                               .alpha = alpha,
                               .max_evaluations = max_evaluations,
@@ -175,7 +176,8 @@ void print_stories(const KnownBugs& bugs, const std::vector<std::optional<Detect
 // Prints the boxes and appends them to `all`. Returns whether each agrees with the reference as the books claim.
 // Returns true when interrupted.
 bool check_cornell_boxes(const KnownBugsCommandOptions& o, json& all, const std::atomic<bool>* cancel) {
-  const std::uint64_t paths = o.samples / 16;
+  constexpr std::uint64_t least_paths = 62'500; // that reject the wrong boxes
+  const std::uint64_t paths = std::max(o.samples / 16, least_paths);
   fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, at least {} paths each.\n", paths);
   const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads, cancel);
   if (boxes.empty()) return true;

@@ -3,8 +3,6 @@
 
 #include <mc/core/error.h>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,11 +18,8 @@ DerivedValue derived_value(const std::string& expression, const std::vector<std:
   for (std::size_t i = 0; i < names.size(); ++i) at.push_back(r.outputs[first + i].estimate.value);
   DerivedValue d{expression, f(at), infinity, {-infinity, infinity}};
 
-  // First and second differences of f, for one standard error of each integral.
-  const auto size = static_cast<Eigen::Index>(names.size());
-  Eigen::VectorXd first_order = Eigen::VectorXd::Zero(size);
-  Eigen::MatrixXd second_order = Eigen::MatrixXd::Zero(size, size), correlations(size, size);
-  std::vector<double> errors(names.size());
+  const std::size_t n = names.size();
+  std::vector<double> errors(n);
   double widest = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(used.begin(), used.end(), names[i]) == used.end()) continue;
@@ -42,25 +37,36 @@ DerivedValue derived_value(const std::string& expression, const std::vector<std:
     x[k] += by_k * errors[k];
     return f(x);
   };
-  for (std::size_t i = 0; i < names.size(); ++i)
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(k);
-      correlations(row, column) = r.correlation(first + i, first + k);
+  // First and second differences of f, for one standard error of each integral.
+  std::vector<double> first_order(n), second_order(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) {
       if (errors[i] == 0 || errors[k] == 0) continue;
       if (i == k) {
         const double up = moved(i, 1, i, 0), down = moved(i, -1, i, 0);
-        first_order(row) = (up - down) / 2;
-        second_order(row, row) = up - 2 * d.value + down;
+        first_order[i] = (up - down) / 2;
+        second_order[i * n + i] = up - 2 * d.value + down;
       } else
-        second_order(row, column) =
+        second_order[i * n + k] =
             (moved(i, 1, k, 1) - moved(i, 1, k, -1) - moved(i, -1, k, 1) + moved(i, -1, k, -1)) / 4;
     }
-  d.std_error = std::sqrt(std::max(first_order.dot(correlations * first_order), 0.0));
+  std::vector<double> form(n * n); // second_order times the correlations
+  double variance = 0, bias = 0, spread = 0, sizes = std::abs(d.value);
+  for (std::size_t i = 0; i < n; ++i) {
+    sizes += std::abs(first_order[i]);
+    for (std::size_t k = 0; k < n; ++k) {
+      variance += first_order[i] * first_order[k] * r.correlation(first + i, first + k);
+      for (std::size_t j = 0; j < n; ++j)
+        form[i * n + k] += second_order[i * n + j] * r.correlation(first + j, first + k);
+    }
+    bias += form[i * n + i] / 2;
+  }
   // Bias and variance of half the quadratic form of normal errors.
-  const Eigen::MatrixXd form = second_order * correlations;
-  const double bias = form.trace() / 2, spread = std::sqrt(std::max((form * form).trace() / 2, 0.0));
-  const double rounding = 1e-14 * std::abs(d.value);
-  d.is_linear = std::hypot(bias, spread) <= d.std_error / 2 + rounding;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) spread += form[i * n + k] * form[k * n + i] / 2;
+  d.std_error = std::sqrt(std::max(variance, 0.0));
+  const double rounding = 1e-14 * sizes;
+  d.is_linear = std::hypot(bias, std::sqrt(std::max(spread, 0.0))) <= d.std_error / 2 + rounding;
   if (!std::isfinite(d.std_error) || !std::isfinite(d.value)) {
     d.std_error = infinity;
     d.has_pole = true;

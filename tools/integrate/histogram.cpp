@@ -72,7 +72,7 @@ Histogram bins_by_value(const UnitCubeIntegral& e, double volume, std::size_t co
   for (std::size_t k = 0; k < count; ++k) {
     const double lo = k + 1 < count ? std::ldexp(top / volume, -static_cast<int>(k)) : 0.0;
     const double hi = k > 0 ? std::ldexp(top / volume, 1 - static_cast<int>(k)) : infinity;
-    all.bins.push_back({fmt::format("|value| in [{:.4g}, {:.4g})", lo, hi), lo, hi, {}});
+    all.bins.push_back({bin_name("|value|", lo, hi), lo, hi, {}});
   }
   return all;
 }

@@ -68,7 +68,7 @@ struct Block {
   }
 };
 
-// Rays start inside the room, or before its open front z = 0 and away from the other walls.
+// Rays start inside the room, or outside where they meet it only through its open front z = 0.
 Hit intersect(const V& o, const V& d) {
   static const Block blocks[] = {{15, V(265, 0, 295), V(165, 330, 165)}, {-18, V(130, 0, 65), V(165, 165, 165)}};
   static const V white = V::Constant(0.73), green(0.12, 0.45, 0.15), red(0.65, 0.05, 0.05);

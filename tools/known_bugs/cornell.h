@@ -18,7 +18,7 @@ struct CornellBox {
 };
 
 /// Renders all boxes. The first is the reference: cosine and light directions in a correct mixture. The reference and
-/// the last box, which differs least from it, get four times as many paths.
+/// the last box, the wrong one that differs least from it, get four times as many paths.
 ///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50
 ///            bounces.
 ///   result : bitwise equal for any number of threads. Empty where `cancel` became true before the end.

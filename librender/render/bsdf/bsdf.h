@@ -15,8 +15,8 @@
 
 namespace render {
 
-/// Any of the BSDFs; itself models BsdfLike. Only sample(), whose result is large, is in line: the other calls cost
-/// less than they compute.
+/// Any of the BSDFs; itself models BsdfLike. sample(), whose result is large, and lobes() are in line. The others are
+/// compiled once: a call costs little beside its computation.
 struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
                            RoughDielectric<>, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
                            SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor,

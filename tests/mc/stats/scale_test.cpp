@@ -10,6 +10,11 @@ namespace {
 TEST(Scale, LargestSizeCountsBothSigns) {
   EXPECT_EQ(mc::largest_size({}), 0);
   EXPECT_EQ(mc::largest_size(std::vector<double>{0, -3, 2}), 3);
+  for (std::size_t at = 0; at < 20; ++at) {
+    std::vector<double> x(20, 1);
+    x[at] = -5;
+    EXPECT_EQ(mc::largest_size(x), 5) << at;
+  }
 }
 
 TEST(Scale, SquaresInUnitsOfTheExponentNeitherOverflowNorUnderflow) {

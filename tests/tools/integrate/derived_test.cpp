@@ -47,6 +47,7 @@ TEST(DerivedValue, CurvatureIsTold) {
   // The ratio of equal errors of equal numbers does not change at all.
   EXPECT_TRUE(carlo::derived_value("B/A", {"A", "B"}, two(2, 0.2, 6, 0.6, 1), 0).is_linear);
   EXPECT_TRUE(carlo::derived_value("A^2/B^2", {"A", "B"}, two(1, 0.05, 3, 0.15, 1), 0).is_linear);
+  EXPECT_TRUE(carlo::derived_value("log(B/A)", {"A", "B"}, two(2.1, 0.2, 2.1, 0.2, 1), 0).is_linear);
   const carlo::DerivedValue pole = carlo::derived_value("1/A", {"A", "B"}, two(0, 0.01, 1, 0, 0), 0);
   EXPECT_TRUE(pole.has_pole);
   EXPECT_EQ(pole.std_error, std::numeric_limits<double>::infinity());

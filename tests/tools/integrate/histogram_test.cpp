@@ -33,6 +33,7 @@ TEST(Histogram, OfAnObservableHasTheRings) {
   const Parts p = parts("r=0:1:5", "1", {.domain = "x=-1:1,y=-1:1", .conditions = {"r<1"}, .lets = {"r=hypot(x,y)"}});
   ASSERT_EQ(p.bins.size(), 7u);
   EXPECT_EQ(p.bins[0].name, "r < 0");
+  EXPECT_EQ(p.bins[6].name, "r >= 1");
   for (std::size_t k = 1; k < 6; ++k) {
     const double area = mc::pi<double> * (mc::sqr(p.bins[k].hi) - mc::sqr(p.bins[k].lo));
     EXPECT_NEAR(p.r.outputs[1 + k].estimate.value, area, 5 * p.r.outputs[1 + k].estimate.std_error) << k;

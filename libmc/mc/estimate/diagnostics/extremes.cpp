@@ -12,7 +12,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }
 
-Extremes::Extremes() : high_cut_(-infinity), low_cut_(infinity) {}
+Extremes::Extremes() : high_cut_(-infinity), low_cut_(infinity), hi_(-infinity), lo_(infinity) {}
 
 void Extremes::add(std::span<const double> values) {
   if (values.empty()) return;
@@ -44,11 +44,11 @@ void Extremes::add(std::span<const double> values) {
 void Extremes::keep(std::span<const double> values) {
   for (const double x : values) {
     if (x > high_cut_) {
-      hi_ = high_.empty() ? x : std::max(hi_, x);
+      hi_ = std::max(hi_, x);
       high_.push_back(x);
     }
     if (x < low_cut_) {
-      lo_ = low_.empty() ? x : std::min(lo_, x);
+      lo_ = std::min(lo_, x);
       low_.push_back(x);
     }
     if (std::max(high_.size(), low_.size()) >= 4 * capacity) compact();
@@ -72,8 +72,8 @@ void Extremes::merge(const Extremes& other) {
   count_ += other.count_;
   zeros_ += other.zeros_;
   mean_size_ += (other.mean_size_ - mean_size_) * (static_cast<double>(other.count_) / static_cast<double>(count_));
-  if (!other.high_.empty()) hi_ = high_.empty() ? other.hi_ : std::max(hi_, other.hi_);
-  if (!other.low_.empty()) lo_ = low_.empty() ? other.lo_ : std::min(lo_, other.lo_);
+  hi_ = std::max(hi_, other.hi_);
+  lo_ = std::min(lo_, other.lo_);
   high_cut_ = std::max(high_cut_, other.high_cut_);
   low_cut_ = std::min(low_cut_, other.low_cut_);
   high_.insert(high_.end(), other.high_.begin(), other.high_.end());
@@ -87,6 +87,8 @@ Extremes Extremes::for_more_values() const {
   Extremes next;
   next.high_cut_ = full.high_cut_;
   next.low_cut_ = full.low_cut_;
+  next.hi_ = full.hi_;
+  next.lo_ = full.lo_;
   return next;
 }
 

@@ -33,9 +33,9 @@ class Extremes {
   /// Mean of the absolute values; 0 without values.
   double mean_size() const { return mean_size_; }
   /// Largest value; 0 without values.
-  double hi() const { return hi_; }
+  double hi() const { return count_ > 0 ? hi_ : 0.0; }
   /// Smallest value; 0 without values.
-  double lo() const { return lo_; }
+  double lo() const { return count_ > 0 ? lo_ : 0.0; }
   /// The k largest values in descending order, or all that are kept.
   std::vector<double> largest(std::size_t k) const;
   /// The k smallest values in ascending order, or all that are kept.
@@ -48,7 +48,7 @@ class Extremes {
   std::uint64_t count_ = 0, zeros_ = 0;
   double mean_size_ = 0;
   double high_cut_, low_cut_; // only values above or below can be kept
-  double hi_ = 0, lo_ = 0;    // of the values that are kept
+  double hi_, lo_;            // largest and smallest value, also of values that came before
   std::vector<double> high_, low_;
 
  public:

@@ -41,6 +41,8 @@ TEST(Extremes, MergedPartsEqualTheWhole) {
     parts.merge(part);
   }
   EXPECT_EQ(parts.count(), whole.count());
+  EXPECT_EQ(parts.hi(), whole.hi());
+  EXPECT_EQ(parts.lo(), whole.lo());
   EXPECT_EQ(parts.largest(256), whole.largest(256));
   EXPECT_EQ(parts.smallest(256), whole.smallest(256));
   EXPECT_NEAR(parts.mean_size(), whole.mean_size(), 1e-9 * whole.mean_size());

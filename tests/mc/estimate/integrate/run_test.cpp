@@ -42,6 +42,8 @@ TEST(Run, StreamsChooseTheirPoints) {
     detail::Run run{{{.one = &always_one}, 1, dim, o}};
     EXPECT_EQ(std::holds_alternative<mc::InterlacedSobol>(run.sobol_sets(Stream::rqmc, 0, 0, 1)[0]), dim == 2);
     EXPECT_TRUE(std::holds_alternative<mc::ScrambledSobol>(run.sobol_sets(Stream::adapted, 0, 0, 1)[0]));
+    for (const Stream s : {Stream::rqmc, Stream::adapted, Stream::quantiles})
+      EXPECT_EQ(mc::is_warped(run.sobol_sets(s, 0, 0, 1)[0]), s == Stream::rqmc);
   }
 }
 
