@@ -69,15 +69,14 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, c
   for (std::uint64_t n = slip.wrong.min_samples; n < o.samples; n *= 2) looks += 1;
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
   DetectionResult t;
-  std::uint64_t tried = 0; // samples that rejected the bug, or the most
   for (std::uint64_t n = slip.wrong.min_samples;; n = std::min(2 * n, o.samples)) {
-    tried = n;
     t.wrong = slip.wrong.check(
         {.samples = n, .seed = seed, .alpha = alpha, .max_evaluations = max_evaluations, .before_draws = &stop});
     t.samples = n;
     t.caught = t.wrong.verdict() == mc::Verdict::fail;
     if (t.caught || n >= o.samples) break;
   }
+  const std::uint64_t enough = std::min(o.samples, std::max(o.samples / 16, 4 * t.samples)); // for the correction
   // The deterministic law that failed, else the test with the smallest p.
   const mc::Check* by = nullptr;
   const auto sureness = [](const mc::Check& c) { return c.p ? mc::sidak_share(*c.p, c.share) : -1.0; };
@@ -90,7 +89,7 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o, c
     else if (deterministic)
       if (const std::uint64_t bad = slip.wrong.first_failure(seed, t.samples)) t.samples = bad;
   }
-  t.right = slip.right.check({.samples = std::max({slip.right.min_samples, o.samples / 16, 4 * tried}),
+  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, enough),
                               .seed = seed,
                               .alpha = alpha,
                               .max_evaluations = max_evaluations,

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 
 namespace mc {
 
@@ -24,18 +25,21 @@ class CompensatedSum {
   double sum_ = 0, compensation_ = 0;
 };
 
-/// Returns the sum of term(0), ..., term(n - 1). Eight partial sums take the terms in turn, so that no addition waits
-/// for the one before. Their order depends on n alone.
-template <class Term> double interleaved_sum(std::size_t n, Term&& term) {
+/// Combines 0 and term(0), ..., term(n - 1) by an associative operation. Eight partial results take the terms in turn,
+/// so that no operation waits for the one before. Their order depends on n alone.
+template <class Operation, class Term> double interleaved(std::size_t n, Operation&& combine, Term&& term) {
   constexpr std::size_t parts = 8;
-  std::array<double, parts> sums{};
+  std::array<double, parts> results{};
   std::size_t i = 0;
   for (; i + parts <= n; i += parts)
-    for (std::size_t k = 0; k < parts; ++k) sums[k] += term(i + k);
-  for (; i < n; ++i) sums[i % parts] += term(i);
+    for (std::size_t k = 0; k < parts; ++k) results[k] = combine(results[k], term(i + k));
+  for (; i < n; ++i) results[i % parts] = combine(results[i % parts], term(i));
   for (std::size_t half = parts / 2; half > 0; half /= 2)
-    for (std::size_t k = 0; k < half; ++k) sums[k] += sums[k + half];
-  return sums[0];
+    for (std::size_t k = 0; k < half; ++k) results[k] = combine(results[k], results[k + half]);
+  return results[0];
 }
+
+/// Returns the sum of term(0), ..., term(n - 1), interleaved.
+template <class Term> double interleaved_sum(std::size_t n, Term&& term) { return interleaved(n, std::plus<>(), term); }
 
 } // namespace mc

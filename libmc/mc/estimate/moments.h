@@ -30,7 +30,7 @@ class Moments {
     m2_ += delta * (x - mean_);
   }
 
-  /// Adds a block of values with indices from `first` on, in passes over it and without a division for each value.
+  /// Adds a block of values with indices from `first` on, in three passes and without a division for each value.
   void add(std::span<const double> values, std::uint64_t first) {
     Moments block;
     const double sum = interleaved_sum(values.size(), [&](std::size_t i) { return values[i]; });

@@ -32,16 +32,7 @@ MC_CLONES void independent(const Independent& sampler, std::uint32_t axis, std::
 // Writes scrambled coordinates of points base + skip, ..., base + skip + count - 1 to elements skip, ... of x.
 MC_CLONES void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base,
                            std::size_t skip, std::size_t count, std::array<std::uint32_t, window>& x) {
-  // Doubles the number of points in each step, with their bits in reverse order: the second half differs from the first
-  // by one column.
-  x[0] = sobol.reversed(static_cast<std::uint32_t>(base), dim);
-  std::size_t half = 1;
-  for (std::uint32_t k = 0; half < skip + count; ++k, half *= 2) {
-    const std::uint32_t* __restrict const from = x.data();
-    std::uint32_t* __restrict const to = x.data() + half;
-    const std::uint32_t column = sobol.column(k, dim);
-    for (std::size_t i = 0; i < half; ++i) to[i] = from[i] ^ column;
-  }
+  sobol.fill_reversed(static_cast<std::uint32_t>(base), dim, std::span(x).first(skip + count));
   const auto key = static_cast<std::uint32_t>(hash(seed, dim) >> 32);
   for (std::size_t i = skip; i < skip + count; ++i) x[i] = reverse_bits(owen_scramble_reversed(x[i], key));
 }
@@ -151,57 +142,61 @@ MC_CLONES void jitter(Descent& points, std::uint64_t key, std::uint64_t index, s
   }
 }
 
-void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u, std::span<double>) {
+void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
   windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
     for (std::size_t d = 0; d < dim; ++d)
       independent(sampler, static_cast<std::uint32_t>(d), base + skip, count, dim, out + d);
   });
 }
 
-using Window = std::array<std::uint32_t, window>;
-
 // Writes coordinate d of points base + skip, ... to every stride-th element of out.
 void write_axis(const ScrambledSobol& set, const Sobol& sobol, std::size_t d, std::uint64_t base, std::size_t skip,
-                std::size_t count, std::array<Window, 2>& memory, std::size_t stride, double* out) {
+                std::size_t count, std::size_t stride, double* out) {
+  std::array<std::uint32_t, window> x;
   const auto dimension = static_cast<std::uint32_t>(d);
   if (dimension < Sobol::dimensions) {
-    coordinates(sobol, set.seed, dimension, base, skip, count, memory[0]);
-    extended(&memory[0][skip], hash(set.seed, dimension), base + skip, count, stride, out);
+    coordinates(sobol, set.seed, dimension, base, skip, count, x);
+    extended(&x[skip], hash(set.seed, dimension), base + skip, count, stride, out);
   } else {
     for (std::size_t i = 0; i < count; ++i) out[i * stride] = coordinate<double>(sobol, base + skip + i, dimension);
   }
 }
 
 void write_axis(const InterlacedSobol& set, const Sobol& sobol, std::size_t d, std::uint64_t base, std::size_t skip,
-                std::size_t count, std::array<Window, 2>& memory, std::size_t stride, double* out) {
+                std::size_t count, std::size_t stride, double* out) {
   const auto first = static_cast<std::uint32_t>(2 * d);
   MC_ASSERT(first + 1 < Sobol::dimensions);
-  for (std::uint32_t i = 0; i < 2; ++i) coordinates(sobol, set.seed, first + i, base, skip, count, memory[i]);
-  interlaced(&memory[0][skip], &memory[1][skip], count, stride, out);
+  std::array<std::uint32_t, window> x, y;
+  coordinates(sobol, set.seed, first, base, skip, count, x);
+  coordinates(sobol, set.seed, first + 1, base, skip, count, y);
+  interlaced(&x[skip], &y[skip], count, stride, out);
 }
 
-// Points of ScrambledSobol or InterlacedSobol.
+// ScrambledSobol or InterlacedSobol.
 template <class Set>
-requires requires(const Set& s) { s.warped; }
+concept MayBeWarped = requires(const Set& s) {
+  s.warped;
+};
+
+// `jacobians` are 1.
+template <MayBeWarped Set>
 void fill(const Set& set, std::uint64_t first, std::size_t dim, std::span<double> u, std::span<double> jacobians) {
   const Sobol sobol(set.seed);
-  std::array<Window, 2> memory;
   std::array<double, window> axis;
-  std::ranges::fill(jacobians, 1.0);
   windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
     for (std::size_t d = 0; d < dim; ++d) {
       if (!set.warped) {
-        write_axis(set, sobol, d, base, skip, count, memory, dim, out + d);
+        write_axis(set, sobol, d, base, skip, count, dim, out + d);
         continue;
       }
-      write_axis(set, sobol, d, base, skip, count, memory, 1, axis.data());
+      write_axis(set, sobol, d, base, skip, count, 1, axis.data());
       double* const products = &jacobians[base + skip - first];
       warp(detail::AxisWarp(set.seed, dim, d), axis.data(), count, products, dim, out + d);
     }
   });
 }
 
-void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::span<double> u, std::span<double>) {
+void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
   constexpr std::size_t group = 8;
   std::array<std::uint32_t, window> boxes;
   Descent points;
@@ -235,8 +230,8 @@ void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::s
 } // namespace
 
 bool is_warped(const PointSet& set) {
-  const auto warped = [](const auto& s) {
-    if constexpr (requires { s.warped; }) return s.warped;
+  const auto warped = []<class Set>(const Set& s) {
+    if constexpr (MayBeWarped<Set>) return s.warped;
     else return false;
   };
   return std::visit(warped, set);
@@ -244,7 +239,13 @@ bool is_warped(const PointSet& set) {
 
 void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u, std::span<double> jacobians) {
   MC_ASSERT(!is_warped(set) || jacobians.size() == u.size() / static_cast<std::size_t>(dim));
-  std::visit([&](const auto& s) { fill(s, first, static_cast<std::size_t>(dim), u, jacobians); }, set);
+  std::ranges::fill(jacobians, 1.0);
+  const auto visit = [&]<class Set>(const Set& s) {
+    const auto d = static_cast<std::size_t>(dim);
+    if constexpr (MayBeWarped<Set>) fill(s, first, d, u, jacobians);
+    else fill(s, first, d, u);
+  };
+  std::visit(visit, set);
 }
 
 } // namespace mc

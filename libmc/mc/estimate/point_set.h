@@ -44,9 +44,8 @@ using PointSet = std::variant<Independent, JitteredBoxes, ScrambledSobol, Interl
 bool is_warped(const PointSet& set);
 
 /// Writes points first, first + 1, ... to u, with the dim coordinates of each point in sequence. u.size() must be a
-/// multiple of dim. Of a warped set also the Jacobians of its maps, one for each point: jacobians.size() must be the
-/// number of points. Other sets need none.
-/// The points of a warped set are the images of these:
+/// multiple of dim. Writes their Jacobians to `jacobians`, whose size must be the number of points; it may be empty for
+/// sets without maps. A warped set has the images of these points:
 ///   Independent     : The bits of coordinate<double>(sampler, index, dim).
 ///   JitteredBoxes   : Indices must be below its count.
 ///   ScrambledSobol  : The leading 32 bits of Sobol(seed), then 20 hashed bits, at the middle of the interval of that

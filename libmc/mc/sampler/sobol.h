@@ -44,8 +44,19 @@ class Sobol {
     for (std::uint32_t k = 0; k < 32; ++k) x ^= column(k, dim) & (0u - (index >> k & 1u));
     return x;
   }
-  /// Column k of the generator matrix of a dimension, k < 32: reversed(2^k, dim).
-  std::uint32_t column(std::uint32_t k, std::uint32_t dim) const { return columns_[std::size_t{dim} * 32 + k]; }
+  /// Writes reversed() of points base, base + 1, ... to x. base must be a multiple of a power of two that is at least
+  /// x.size().
+  void fill_reversed(std::uint32_t base, std::uint32_t dim, std::span<std::uint32_t> x) const {
+    x[0] = reversed(base, dim);
+    // Each step doubles the number of points: the second half differs from the first by one column.
+    std::size_t half = 1;
+    for (std::uint32_t k = 0; half < x.size(); ++k, half *= 2) {
+      const std::uint32_t* __restrict const from = x.data();
+      std::uint32_t* __restrict const to = x.data() + half;
+      const std::uint32_t next = column(k, dim);
+      for (std::size_t i = 0; i < std::min(half, x.size() - half); ++i) to[i] = from[i] ^ next;
+    }
+  }
 
   /// Coordinate `dim` of points first, first + 1, ... Equal to coordinate<S>() bit by bit, but computes several points
   /// at a time.
@@ -57,7 +68,7 @@ class Sobol {
     // Point i + k of an aligned block that starts at i is the exclusive or of points i and k.
     constexpr std::size_t block = 64;
     std::array<std::uint32_t, block> offsets;
-    for (std::uint32_t i = 0; i < block; ++i) offsets[i] = reversed(i, dim);
+    fill_reversed(0, dim, offsets);
     const std::uint64_t key = hash(seed_, dim);
     const auto scramble = static_cast<std::uint32_t>(key >> 32);
     for (std::size_t done = 0; done < out.size();) {
@@ -74,6 +85,9 @@ class Sobol {
   }
 
  private:
+  // Column k of the generator matrix of a dimension: reversed(2^k, dim).
+  std::uint32_t column(std::uint32_t k, std::uint32_t dim) const { return columns_[std::size_t{dim} * 32 + k]; }
+
   /// Table of dimensions x 32 columns, each with its leading bit last. Built once per process.
   static const std::uint32_t* direction_numbers();
 

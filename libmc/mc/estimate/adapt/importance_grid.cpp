@@ -108,10 +108,7 @@ void ImportanceGrid::index(std::size_t d) {
 std::size_t ImportanceGrid::bin(std::size_t d, double x) const {
   const double* e = edges_.data() + d * (bins + 1);
   const std::uint8_t* cell = first_.data() + d * (cells + 1) + static_cast<std::size_t>(x * cells);
-  std::size_t i = cell[0];
-  if (cell[1] - cell[0] > 8) return static_cast<std::size_t>(std::upper_bound(e + i + 1, e + cell[1] + 1, x) - e - 1);
-  while (i < cell[1] && e[i + 1] <= x) ++i;
-  return i;
+  return static_cast<std::size_t>(std::upper_bound(e + cell[0] + 1, e + cell[1] + 1, x) - e - 1);
 }
 
 std::span<const double> ImportanceGrid::edges(int d) const {

@@ -32,7 +32,7 @@ void Extremes::add(std::span<const double> values) {
   count_ += values.size();
   zeros_ += zeros;
   mean_size_ += (mean - mean_size_) * (n / static_cast<double>(count_));
-  constexpr std::size_t together = 32;
+  constexpr std::size_t together = 32; // of which mostly none is kept
   for (; !values.empty(); values = values.subspan(std::min(together, values.size()))) {
     const std::span<const double> part = values.first(std::min(together, values.size()));
     std::uint64_t beyond = 0;

@@ -82,8 +82,7 @@ TEST(Methods, AutomaticChangesTheDensityOnlyWhereItPays) {
   }
 }
 
-// The densities of a box err less than uniform points from the first hundreds of calls on. Each return to uniform
-// points would leave an error that is forty times as large.
+// At equal calls the densities of a box err less than uniform points, so that a run never returns to these.
 TEST(Methods, Automatic_Box_KeepsTheBetterDensity) {
   const Function box = [](std::span<const double> u) {
     return u[0] >= 0.1374 && u[0] < 0.3021 && u[1] >= 0.5193 && u[1] < 0.9226 && u[2] >= 0.3071 && u[2] < 0.4459;
