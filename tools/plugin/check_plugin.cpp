@@ -87,14 +87,14 @@ double time_of(const PluginDistribution& plugin, const AnyDistribution& s) {
     return mc::ns_per_sample(std::vector<int>(mc::timing_inputs / 2), [&](int) {
       PointArray x{};
       plugin.sample(random, x.data());
-      return x[0];
+      return x;
     });
   std::vector<AnyDistribution::Uniforms> u(mc::timing_inputs / 2);
   for (AnyDistribution::Uniforms& one : u) one = random_uniforms(s, random);
   return mc::ns_per_sample(u, [&](const AnyDistribution::Uniforms& one) {
     PointArray x{};
     plugin.sample(one.data(), x.data());
-    return x[0];
+    return x;
   });
 }
 

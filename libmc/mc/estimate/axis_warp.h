@@ -13,8 +13,7 @@ namespace mc::detail {
 ///   why     : A scrambling permutes the elementary intervals of a net and keeps their ends. A jump of the integrand
 ///             near such an end changes all replicates alike or none of them, so that their spread does not tell its
 ///             error. The maps move the jump to another place of the net in each replicate.
-///   density : An integral is the mean of f(x) times the Jacobian, the product of the slopes. f stays as smooth as it
-///             is.
+///   Jacobian: The product w of the slopes. The integral of f is that of f(x) w over u, and f stays as smooth as it is.
 ///   size    : |c| < 1/8 / sqrt(dim), so that the Jacobians vary little in any dimension. Jumps move by several
 ///             intervals of a thousand points.
 class AxisWarp {

@@ -81,7 +81,8 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;              ///< Seed of all random numbers.
   int threads = 0;                     ///< Number of threads, 0 for all. The result has the same bits for any number.
   double confidence = 0.95;            ///< Confidence level of the interval.
-  /// Least number of calls before a run may converge, so that few points do not hide a feature; at most max_calls.
+  /// Least number of calls before a run may converge, so that few points do not hide a feature; at most max_calls. The
+  /// sequences that give the answer need as many, but at most half of max_calls.
   std::uint64_t min_calls = 10'000;
   /// Number of independent randomisations behind the error of all methods but plain. The last calls of a run may go
   /// into fewer and longer sequences, at least eight, or into more of them.
@@ -89,8 +90,8 @@ struct IntegrateOptions {
   /// Approximate time of one call [ns]. A learned density costs time, which saves calls of a slow integrand.
   double call_ns = 20;
   /// Initial density for vegas, tree and automatic: from an earlier run or from load_density(), for the same or a
-  /// similar integrand. Short rounds of uniform points and of points from the density test it. If it fits, it replaces
-  /// learning; otherwise learning continues from it. The estimate is unbiased for any density.
+  /// similar integrand. The run starts with points from it, and learning continues from it where a refined one
+  /// promises less error. A density that does not fit costs calls and does not bias the estimate.
   std::shared_ptr<const AdaptedDensity> density = {};
   /// The last `auxiliary_outputs` outputs affect neither stopping nor adaptation.
   std::size_t auxiliary_outputs = 0;
@@ -181,12 +182,12 @@ struct BatchIntegrand {
 /// Integral of f(u) over the unit cube [0,1)^dim. Calls f from several threads at once.
 ///   plain      : Independent points. Error from the sample variance.
 ///   stratified : Independent rounds of jittered points, doubling in size. Error from replicates.
-///   rqmc       : Independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions.
-///                Error from replicates.
-///   vegas      : rqmc through an ImportanceGrid. Whenever the calls have doubled, the grid may be learned anew from
-///                the points so far; new replicates then start, so the estimate is unbiased. An eighth of the points is
-///                uniform, so that no weighted value exceeds 8 times the integrand. The known integral of the density
-///                serves as a control variate, which makes uniform points cheap [OwenZhou00].
+///   rqmc       : Independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
+///                each with its own smooth map of the axes. Error from replicates.
+///   vegas      : Scrambled Sobol' sequences through an ImportanceGrid. Whenever the calls have doubled, the grid may
+///                be learned anew from the newest points; new replicates then start, so that no point of the answer
+///                has shaped its density. An eighth of the points is uniform, so that no weight exceeds 8. The known
+///                integral of the density serves as a control variate, which makes uniform points cheap [OwenZhou00].
 ///   tree       : vegas with a BoxTree within the grid, for integrands that are no product over the axes.
 ///   automatic  : rqmc; changes to vegas or tree during the run where that promises the wanted error earlier, and back
 ///                if it does not keep the promise. Uses plain above 1024 dimensions.

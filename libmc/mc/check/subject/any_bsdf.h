@@ -129,10 +129,7 @@ template <Real S, class Bsdf> double ns_per_scatter(const Bsdf& bsdf, const Vec3
   Pcg random(3);
   std::vector<Vec3<S>> inputs(timing_inputs);
   for (auto& u : inputs) u = random.point<S, 3>();
-  return mc::ns_per_sample(inputs, [&](const Vec3<S>& u) {
-    const auto drawn = scatter<S>(bsdf, wo, u[0], Vec2<S>(u[1], u[2]));
-    return drawn ? static_cast<double>(drawn->wi.x()) : 0.0;
-  });
+  return mc::ns_per_sample(inputs, [&](const Vec3<S>& u) { return scatter<S>(bsdf, wo, u[0], Vec2<S>(u[1], u[2])); });
 }
 
 } // namespace detail

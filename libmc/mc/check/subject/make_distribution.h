@@ -88,10 +88,7 @@ template <class W> double ns_per_point(const W& warp) {
   Pcg random(3);
   std::vector<UnitPointOf<W>> inputs(timing_inputs);
   for (auto& u : inputs) u = random.point<typename W::Domain::Scalar, W::Domain::dim>();
-  return mc::ns_per_sample(inputs, [&](const UnitPointOf<W>& u) {
-    const auto x = warp.sample(u);
-    return is_empty(x) ? 0.0 : component(unwrapped(x), 0);
-  });
+  return mc::ns_per_sample(inputs, [&](const UnitPointOf<W>& u) { return warp.sample(u); });
 }
 
 template <DiscreteDistribution D> double ns_per_outcome(const D& distribution) {
@@ -99,7 +96,7 @@ template <DiscreteDistribution D> double ns_per_outcome(const D& distribution) {
   Pcg random(3);
   std::vector<S> inputs(timing_inputs);
   for (S& u : inputs) u = random.uniform<S>();
-  return mc::ns_per_sample(inputs, [&](S u) { return static_cast<double>(distribution.sample_index(u).index); });
+  return mc::ns_per_sample(inputs, [&](S u) { return distribution.sample_index(u); });
 }
 
 /// Returns a chart over double as functions of numbers; domains over float and double share it. The functions that
