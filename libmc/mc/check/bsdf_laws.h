@@ -16,14 +16,15 @@ Subject bsdf_subject(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& opt
   return bsdf_subject(any_bsdf<S>(bsdf), Vec3<double>(wo.template cast<double>()), options);
 }
 
-/// Tests sample and pdf for one wo like check_subject, tests that sample is deterministic, and tests these laws:
+/// Tests sample and pdf for one wo like check_subject, tests that sample is deterministic and correct at the ends and
+/// branches of u, and tests these laws:
 ///   sign        : f is finite and >= 0 for sampled and for uniform wi.
 ///   support     : pdf > 0 wherever f > 0, at uniform wi. Otherwise an estimator loses light.
 ///   reciprocity : f(wo, wi) = f(wi, wo). Across the surface the squared ratio of the indices enters. Delta lobes are
 ///                 compared by the share of the energy that they carry.
 ///   energy      : the white furnace albedo is at most 1 in every channel; exactly 1 for a lossless BSDF. The law tests
 ///                 wo and 16 more directions on each side, one-sided at five standard errors. It repeats the brightest
-///                 direction with all samples. The report lists the albedos as figures.
+///                 direction with as many samples as wo. The report lists the albedos as figures.
 /// Directions on the side opposite to wo are tested only if samples cross the surface: a one-sided BSDF may be
 /// undefined there.
 Report check_bsdf(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options = {});

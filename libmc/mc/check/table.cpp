@@ -13,7 +13,7 @@ constexpr LawRow<AnyDistribution, LawOptions> distribution_rows[] = {
     {"batch consistency", batch_consistency_law, "sample takes one u at a time"},
     {"pdf > 0 where eval > 0", support_law, "no eval"},
     {"invert(sample(u)) = u", inverse_law, "no invert"},
-    {"|det| pdf = 1", jacobian_law, "needs invert, and as many u as dimensions"},
+    {"|det| pdf = 1", jacobian_law, "needs invert, as many u as dimensions, and double or 50 digits"},
     {"float and double against 50 digits", precision_law, "no cast to 50 digits"},
 };
 
@@ -27,11 +27,15 @@ BsdfLaw bsdf_sign_law, bsdf_support_law, bsdf_reciprocity_law, bsdf_delta_recipr
 
 namespace {
 
+Findings bsdf_boundary_law(const BsdfView& view) {
+  return boundary_law(view.distribution, {.statistics = view.options.statistics});
+}
 Findings bsdf_determinism_law(const BsdfView& view) {
   return determinism_law(view.distribution, {.statistics = view.options.statistics});
 }
 
 constexpr LawRow<BsdfView> bsdf_rows[] = {
+    {"boundary and branches of u", bsdf_boundary_law, nullptr},
     {"determinism", bsdf_determinism_law, nullptr},
     {"f finite and >= 0", bsdf_sign_law, nullptr},
     {"pdf > 0 where f > 0", bsdf_support_law, nullptr},

@@ -94,6 +94,24 @@ TEST(BsdfLaws, SupportEnergyAndDeltaReciprocity_Fail) {
   EXPECT_TRUE(broken(check({Bug::mirror_reciprocity, 0.3}), "reciprocity of delta lobes"));
 }
 
+TEST(BsdfLaws, NanAtTheEndsOfU_Fails) {
+  struct AtEnd : Coated {
+    double end;
+    std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>& u) const {
+      std::optional<Sample> s = Coated::sample(wo, uc, u);
+      if (u[0] == end) s->wi.x() = NAN;
+      return s;
+    }
+  };
+  const auto checked = [](double end, bool open_interval) {
+    return mc::check_bsdf<double>(AtEnd{{}, end}, V(0.6, 0, 0.8),
+                                  {.statistics = {.samples = 50'000, .open_interval = open_interval}});
+  };
+  EXPECT_TRUE(broken(checked(0, false), "single u of measure zero"));
+  EXPECT_TRUE(checked(0, true).passed());
+  EXPECT_TRUE(broken(checked(1 - 0x1p-53, true), "boundary and branches of u"));
+}
+
 TEST(BsdfLaws, PdfZeroWhereFIsPositive_Fails) {
   // Half of the reflected light is never sampled.
   struct Half : Coated {

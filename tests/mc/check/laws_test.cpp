@@ -177,8 +177,9 @@ TEST(Laws, LawsThatCannotBeTried_AreListed) {
   };
   EXPECT_EQ(check_laws(Bare{}, cheap()).untried_text(),
             "not tried: batch consistency (sample takes one u at a time), pdf > 0 where eval > 0 (no eval), "
-            "invert(sample(u)) = u (no invert), |det| pdf = 1 (needs invert, and as many u as dimensions), float and "
-            "double against 50 digits (no cast to 50 digits), weight = f / pdf (a sample states no weight and no pdf)");
+            "invert(sample(u)) = u (no invert), |det| pdf = 1 (needs invert, as many u as dimensions, and double or 50 "
+            "digits), float and double against 50 digits (no cast to 50 digits), weight = f / pdf (a sample states no "
+            "weight and no pdf)");
 }
 
 // A sampler of a varying number of random numbers, right and wrong.

@@ -173,7 +173,7 @@ AnyDistribution bsdf_distribution(const AnyBsdf& bsdf, const AnyBsdf::Direction&
                                     : detail::distribution_on(options.name, Sphere<double>{});
   if (!lobes.continuous) s.domain.dim = 0;
   s.may_fail = true;
-  s.open_interval = options.statistics.open_interval;
+  s.open_interval = bsdf.open_interval || options.statistics.open_interval;
   s.states_weight = true;
   s.weight_tolerance = options.tolerance;
   s.mass_tolerance = options.mass_tolerance;
