@@ -143,7 +143,9 @@ ConvergeRun measure_all(ResultWriter& results, const std::vector<IntegralTarget>
 }
 
 std::vector<Option> rows(ConvergeCommandOptions& o) {
-  OptionGroup common{common_options, integral_option_rows(o.integral)};
+  OptionGroup common{
+      common_options,
+      integral_option_rows(o.integral, "Names (see --list), groups (books, genz, rates; default: books)")};
   const std::vector<Option> own = {
       {"--samplers", "NAMES", &o.samplers,
        "Methods, comma-separated, see --list; for a scene, point sets of carlo render. Default: "

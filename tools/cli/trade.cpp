@@ -195,7 +195,7 @@ std::vector<SamplingMethod> configurations(const IntegralTarget& target) {
 }
 
 std::vector<Option> rows(TradeCommandOptions& o) {
-  OptionGroup common{common_options, integral_option_rows(o.integral)};
+  OptionGroup common{common_options, integral_option_rows(o.integral, "Name (see --list)")};
   const std::vector<Option> own = {
       {"--error", "LIST", &o.errors,
        "RMS errors to reach, absolute: \"1e-2,1e-3\". Default: three decades below the integral; for a scene "

@@ -88,7 +88,7 @@ std::vector<Option> validate_rows(ValidateCommandOptions& o) {
             "\"alpha=0.1:0.5:0.1\" with both ends. Each --params makes one case or more."},
            {"--random-params", "N", &o.random_parameters,
             "N cases of each distribution of the plugin, with random values of the parameters that --params leaves "
-            "out: uniform in their ranges, or log-uniform for 0 < lo <= hi/100. Default: 0, the default values."},
+            "out: uniform in their ranges, or log-uniform for 0 < lo <= hi/100. 0: their default values."},
            {"--command", "PROGRAM", &o.sampler_command,
             "Check the distribution of this program, which answers over pipes: \"python3 mine.py\". Needs --domain."},
            {"--uniforms", "N", &o.uniforms,
@@ -148,7 +148,7 @@ std::vector<HelpSection> validate_sections() {
             "1e-4, or any with --unnormalized."},
            {"--command",
             "carlo writes questions to the program's input: \"sample N K\\n\" with N K doubles u, and \"pdf N C\\n\" "
-            "with N C doubles x. The program writes N C doubles x, not finite where a sample failed, or N densities, "
+            "with N C doubles x. The program writes N C doubles x or N densities, "
             "little-endian, and flushes. With --uniforms own the first question is \"draw N 1\\n\" with N seeds, "
             "whole numbers below 2^53."},
        }},

@@ -91,11 +91,9 @@ std::vector<RenderMethod> methods_of(const SceneOptions& o, const SceneMeasureRe
 
 } // namespace
 
-std::vector<Option> integral_option_rows(IntegralOptions& o) {
+std::vector<Option> integral_option_rows(IntegralOptions& o, const std::string& names) {
   return {
-      {"INTEGRAND", "", &o.integrands,
-       "Names (see --list), groups (books, genz, rates), an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file "
-       "(.xml). Default: books."},
+      {"INTEGRAND", "", &o.integrands, names + ", an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file (.xml)."},
       domain_option(o.expression),
       {"--max-n", "N", &o.max_n, "Largest number of evaluations of an integrand."},
       {"--list", "", &o.list, "List the integrands and the methods, and stop."},

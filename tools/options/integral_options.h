@@ -21,8 +21,8 @@ struct IntegralOptions {
   bool operator==(const IntegralOptions&) const = default;
 };
 
-/// Rows for the common options.
-std::vector<Option> integral_option_rows(IntegralOptions& o);
+/// Rows for the common options. `names` begins the description of the integrands.
+std::vector<Option> integral_option_rows(IntegralOptions& o, const std::string& names);
 
 /// The named integrands; without a name the group books.
 ///   throws : Error for an unknown name, a bad number, and as find_integrand and foreign_targets.
