@@ -30,6 +30,11 @@ import subprocess
 import sys
 import tempfile
 
+try:
+    import numpy
+except ImportError:
+    numpy = None
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGE = os.path.join(ROOT, "docs", "performance.md")
 DATA = os.path.join(ROOT, "notebooks-data")
@@ -170,8 +175,6 @@ def default(options):
 
 
 def read_pfm(path):
-    import numpy
-
     with open(path, "rb") as file:
         file.readline()
         width, height = map(int, file.readline().split())
@@ -212,8 +215,9 @@ def lajolla(options):
     if not peer or not os.path.exists(peer):
         absent("lajolla", "lajolla", "the table is left out")
         return
-    import numpy
-
+    if not numpy:
+        absent("lajolla", "NumPy", "the table is left out")
+        return
     carlo = program(options, "tools", "carlo")
     yield ["scene", "samples a pixel", "lajolla: variance x s", "`carlo`", "ratio", "mean over lajolla's"]
     for file, width, height in LAJOLLA_SCENES:
