@@ -16,32 +16,35 @@ namespace carlo {
 namespace {
 
 using namespace render;
-using Number = std::function<double(const Vec2& u)>;
+using Timing = std::function<double()>; // time of one sample [ns]
 
 constexpr Float eps = std::numeric_limits<Float>::epsilon(), nan = std::numeric_limits<Float>::quiet_NaN();
 
-// Adds a distribution that is not a warp; `number` draws one sample for timing.
-void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject,
-                 const Number& number, double mass_tolerance = 64 * double(eps)) {
-  Case one{name, parameters, sizeof(Float) == 4 ? "float" : "double", {}};
-  subject.name = one.title();
-  subject.mass_tolerance = mass_tolerance;
-  one.check = [subject = std::move(subject), number](const CaseOptions& o) {
-    mc::Report report = mc::check_subject(subject, o);
+template <class Sample> Timing timing_of(const Sample& sample) {
+  return [=] {
     std::vector<Vec2> inputs(mc::timing_inputs);
     mc::Pcg random(3);
     for (Vec2& u : inputs) u = random.point<Float, 2>();
-    report.ns_per_sample = mc::ns_per_sample(inputs, number);
+    return mc::ns_per_sample(inputs, sample);
+  };
+}
+
+Timing timing_of(const Shape& shape, const Vec3& ref) {
+  return timing_of([=](const Vec2& u) { return shape.sample(ref, u); });
+}
+
+// Adds a distribution that is not a warp.
+void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject,
+                 const Timing& timing, double mass_tolerance = 64 * double(eps)) {
+  Case one{name, parameters, sizeof(Float) == 4 ? "float" : "double", {}};
+  subject.name = one.title();
+  subject.mass_tolerance = mass_tolerance;
+  one.check = [subject = std::move(subject), timing](const CaseOptions& o) {
+    mc::Report report = mc::check_subject(subject, o);
+    report.ns_per_sample = timing();
     return report;
   };
   c.push_back(std::move(one));
-}
-
-Number time_of(const Shape& shape, const Vec3& ref) {
-  return [=](const Vec2& u) {
-    const auto s = shape.sample(ref, u);
-    return s ? double(s->pdf) : 0.0;
-  };
 }
 
 // Adds the directions from ref to a shape, checked against the density of a direction. `domain` contains all of them. A
@@ -57,7 +60,7 @@ void add_directions(Catalogue& c, const std::string& name, const std::string& pa
                : Vec3((s->wi + 4 * eps * (middle - s->wi).normalized()).normalized());
   };
   const auto pdf = [=](const Vec3& wi) { return shape.pdf(ref, wi); };
-  add_subject(c, name, parameters + ", directions", make_subject("", domain, sample, pdf), time_of(shape, ref));
+  add_subject(c, name, parameters + ", directions", make_subject("", domain, sample, pdf), timing_of(shape, ref));
 }
 
 // Adds the points that a shape samples from ref, checked against the density of the direction to a point, converted to
@@ -93,7 +96,7 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
   };
   mc::Subject subject = make_subject("", domain, sample, pdf, [](const Point&) { return Float(1); });
   subject.weight_tolerance = tolerance;
-  add_subject(c, name, parameters + ", points", std::move(subject), time_of(shape, ref), 1e-6);
+  add_subject(c, name, parameters + ", points", std::move(subject), timing_of(shape, ref), 1e-6);
 }
 
 mc::Cap<Float> cap_of(double one_minus_cos) { return mc::Cap<Float>(Float(one_minus_cos)); }
@@ -238,7 +241,7 @@ struct LightsSeen {
 void add_choice(Catalogue& c, const std::string& name, const std::string& parameters, SceneBuilder builder) {
   const LightsSeen choice{std::make_shared<const Scene>(builder.build()), Vec3(1, 2, 3)};
   add_subject(c, name, parameters, mc::make_discrete_subject("", choice),
-              [=](const Vec2& u) { return double(choice.sample_index(u[0]).pmf); });
+              timing_of([=](const Vec2& u) { return choice.sample_index(u[0]); }));
 }
 
 void add_choices(Catalogue& c) {
@@ -299,7 +302,7 @@ void add_mask(Catalogue& c) {
   builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 1})), {builder.add(Lambert())});
   const MetBehindMask met{std::make_shared<const Scene>(builder.build()), Float(0.375)}; // between two texels
   add_subject(c, "Mask", "a picture of 0.25 and 0.5", mc::make_discrete_subject("", met),
-              [=](const Vec2& u) { return double(met.sample_index(u[0]).pmf); });
+              timing_of([=](const Vec2& u) { return met.sample_index(u[0]); }));
 }
 
 // Adds the directions towards an infinitely distant light.
@@ -307,7 +310,7 @@ template <class L> void add_background(Catalogue& c, const std::string& name, co
   const auto sample = [=](const Vec2& u) { return light.sample(Vec3::Zero(), u)->wi; };
   const auto pdf = [=](const Vec3& wi) { return light.pdf(Vec3::Zero(), wi, nullptr); };
   add_subject(c, name, what, make_subject("", mc::Sphere<Float>{}, sample, pdf),
-              [=](const Vec2& u) { return double(light.sample(Vec3::Zero(), u)->pdf); });
+              timing_of([=](const Vec2& u) { return light.sample(Vec3::Zero(), u); }));
 }
 
 void add_lights_seen(Catalogue& c) {
@@ -330,7 +333,7 @@ void add_filter(Catalogue& c, const std::string& name, const std::string& parame
   const auto sample = [=](const Vec2& u) { return filter.sample(u); };
   add_subject(c, name, parameters,
               make_subject("", filter.domain(), sample, [=](const Vec2& x) { return filter.pdf(x); }),
-              [=](const Vec2& u) { return double(filter.sample(u).sum()); });
+              timing_of(sample));
 }
 
 void add_camera(Catalogue& c) {
@@ -347,7 +350,7 @@ void add_camera(Catalogue& c) {
   };
   add_subject(c, "ThinLens", "points of the lens",
               make_subject("", mc::Disk<Float>{}, sample, [](const Vec2&) { return 1 / mc::pi<Float>; }),
-              [=](const Vec2& u) { return double(sample(u).sum()); });
+              timing_of(sample));
 }
 
 // Adds the rays through the points of a film, checked against the density that light paths use for them.
@@ -360,7 +363,7 @@ void add_pinholes(Catalogue& c) {
     const auto sample = [=](const Vec2& u) { return lens.ray(u, half, Vec2::Zero()).d; };
     add_subject(c, "ThinLens", fmt::format("pinhole, fov={:g}, directions", fov),
                 make_subject("", film, sample, [=](const Vec3& d) { return lens.direction_pdf(d, half); }),
-                [=](const Vec2& u) { return double(sample(u).sum()); });
+                timing_of(sample));
   }
 }
 

@@ -27,16 +27,14 @@ BsdfLaw bsdf_sign_law, bsdf_support_law, bsdf_reciprocity_law, bsdf_delta_recipr
 
 namespace {
 
-Findings bsdf_boundary_law(const BsdfView& view) {
-  return boundary_law(view.distribution, {.statistics = view.options.statistics});
-}
-Findings bsdf_determinism_law(const BsdfView& view) {
-  return determinism_law(view.distribution, {.statistics = view.options.statistics});
+// A law of distributions, for the directions wi.
+template <Law law> Findings of_directions(const BsdfView& view) {
+  return law(view.distribution, {.statistics = view.options.statistics});
 }
 
 constexpr LawRow<BsdfView> bsdf_rows[] = {
-    {"boundary and branches of u", bsdf_boundary_law, nullptr},
-    {"determinism", bsdf_determinism_law, nullptr},
+    {"boundary and branches of u", of_directions<boundary_law>, nullptr},
+    {"determinism", of_directions<determinism_law>, nullptr},
     {"f finite and >= 0", bsdf_sign_law, nullptr},
     {"pdf > 0 where f > 0", bsdf_support_law, nullptr},
     {"reciprocity", bsdf_reciprocity_law, "reciprocal = false"},
